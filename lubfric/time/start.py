@@ -12,7 +12,7 @@ from ..contact import HalfSpaceContact
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import solve_to_tolerance
 from ..models import prepare
-from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, film_under, solve_balance, volume_residual
+from ..models.load_sharing import PaperModel, PaperSolution, film_under, solve_balance, volume_residual
 from ..models.shared import Prepared, contact_on_joined_strips, scene_of
 from ..samples import Sample
 from ..scene import Constant, Scene
@@ -272,11 +272,11 @@ def _need_of(prepared: Prepared, sample: Sample, speed: float) -> NeedOfSpeed:
     )
 
 
-def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
+def _balanced(prepared: Prepared, speed: float) -> PaperSolution:
     """Return the strips that load sharing needs at ``speed`` [m/s], in steady balance."""
     solution = solve_to_tolerance(prepared, speed, PaperModel())
     assert isinstance(solution, PaperSolution)
-    return solution.balanced
+    return solution
 
 
 def _mean(factors: list[float]) -> float:

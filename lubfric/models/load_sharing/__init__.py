@@ -11,7 +11,6 @@
 
 from .answer import answer_of
 from .balance import Balance, solve_balance
-from .balanced_sample import BalancedSample
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error, why_moment_unknown

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import cast
+from typing import Self, cast
 
 from scipy import fft
 
@@ -13,6 +13,7 @@ from ...contact import HalfSpaceContact, RoughContact, weighted_mean
 from ...errors import LubfricError, WorkLimitError
 from ...samples import Sample
 from ...scene import budget
+from ..contract import SampleSolution
 from ..shared import (
     FEW_CONTACTS,
     SAMPLING_MATTERS,
@@ -62,33 +63,77 @@ REFERENCED = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class BalancedSample:
-    """The balance of a sample, corrected for its cells, and what is known of its error.
+class BalancedSample(SampleSolution):
+    """The first strips joined to one line, in balance, corrected for its cells, and what is known of its error.
 
     Attributes
     ----------
-    prepared, speed : the scene, and the entrainment speed [m/s]
+    prepared, sample, count, speed : as of `SampleSolution`
     raw_balance : as it was solved on ``rough_contact``
     corrected_balance : with the division of the load that native cells demand (`corrected`); before, the raw one
     rough_contact : on the first ``count`` strips of ``sample``
     scatter : from place to place
-    sample, count : what was solved, on its cells
     effect : of the cells
     first_effect : of the cells, at the load at which it was found and from which ``effect`` follows; None: not found yet
     undetected : relative effect on f of contact that the sample may have missed by chance where it has none
     """
 
     prepared: Prepared
+    sample: Sample
+    count: int
     speed: float
     raw_balance: Balance
     corrected_balance: Balance
     rough_contact: RoughContact
     scatter: Scatter
-    sample: Sample
     effect: CellEffect = CellEffect()
     first_effect: CellEffect | None = None
-    count: int = 1
     undetected: float = 0.0
+
+    @classmethod
+    def solved(cls, prepared: Prepared, sample: Sample, count: int, speed: float, start: BalancedSample | None) -> Self:
+        """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s], joined to one line with one film and one
+        approach. ``start``: the solution of fewer of them. Raises `ConvergenceError`."""
+        scene = prepared.scene
+        rough_contact = contact_on_joined_strips(prepared, sample, count)
+        begin = _reference(prepared, speed, sample) if start is None else start.start
+        is_correctable = not sample.cells.is_native
+        raw_balance = solve_balance(
+            scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=is_correctable
+        )
+        balanced = cls(
+            prepared=prepared,
+            speed=speed,
+            raw_balance=raw_balance,
+            corrected_balance=raw_balance,
+            rough_contact=rough_contact,
+            scatter=Scatter(length=sample.line_length(count)),
+            sample=sample,
+            first_effect=None if start is None else start.first_effect,
+            count=count,
+        )
+        on_cells = balanced.on_cells
+        if on_cells is None:
+            return replace(balanced, undetected=math.nan)
+        if raw_balance.response is None:
+            assert raw_balance.film is not None
+            undetected = undetected_contact(
+                scene,
+                on_cells,
+                film=raw_balance.film,
+                forces=raw_balance.forces,
+                correlation_length=sample.correlation_lengths[1],
+            )
+            return replace(balanced, undetected=undetected)
+        effect = balanced.first_effect
+        if effect is None and raw_balance.film is not None:
+            effect = _effect(prepared, balanced.point, raw_balance, sample)
+        return replace(
+            balanced,
+            scatter=scatter_of(scene, on_cells, raw_balance, sample, count),
+            effect=(effect or CellEffect()).at_load(raw_balance.contact_load),
+            first_effect=effect,
+        )
 
     @property
     def response(self) -> Response | None:
@@ -230,7 +275,7 @@ class BalancedSample:
         native = contact_on_piece(self.prepared, sample, 0, coarsening=(1, 1))
         return depth > 0 and hidden_contact(scene, native, raw_balance.forces, depth) > allowed
 
-    def corrected(self) -> BalancedSample:
+    def corrected(self) -> Self:
         """Return this sample with the load divided as on native cells and at the exact root (`gap_change`): film and
         friction are solved at that division, and areas scaled to its load."""
         raw_balance = self.raw_balance
@@ -259,51 +304,6 @@ class BalancedSample:
             forces=forces_of(scene, film, contact_state, loads[1]),
         )
         return replace(self, corrected_balance=corrected_balance)
-
-
-def solve_sample(
-    prepared: Prepared, sample: Sample, count: int, speed: float, start: BalancedSample | None
-) -> BalancedSample:
-    """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s], joined to one line with one film and one
-    approach. ``start``: the solution of fewer of them. Raises `ConvergenceError`."""
-    scene = prepared.scene
-    rough_contact = contact_on_joined_strips(prepared, sample, count)
-    begin = _reference(prepared, speed, sample) if start is None else start.start
-    is_correctable = not sample.cells.is_native
-    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=is_correctable)
-    balanced = BalancedSample(
-        prepared=prepared,
-        speed=speed,
-        raw_balance=raw_balance,
-        corrected_balance=raw_balance,
-        rough_contact=rough_contact,
-        scatter=Scatter(length=sample.line_length(count)),
-        sample=sample,
-        first_effect=None if start is None else start.first_effect,
-        count=count,
-    )
-    on_cells = balanced.on_cells
-    if on_cells is None:
-        return replace(balanced, undetected=math.nan)
-    if raw_balance.response is None:
-        assert raw_balance.film is not None
-        undetected = undetected_contact(
-            scene,
-            on_cells,
-            film=raw_balance.film,
-            forces=raw_balance.forces,
-            correlation_length=sample.correlation_lengths[1],
-        )
-        return replace(balanced, undetected=undetected)
-    effect = balanced.first_effect
-    if effect is None and raw_balance.film is not None:
-        effect = _effect(prepared, balanced.point, raw_balance, sample)
-    return replace(
-        balanced,
-        scatter=scatter_of(scene, on_cells, raw_balance, sample, count),
-        effect=(effect or CellEffect()).at_load(raw_balance.contact_load),
-        first_effect=effect,
-    )
 
 
 def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | None:

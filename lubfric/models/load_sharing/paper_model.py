@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ...samples import Sample
 from ...scene import Scene, why_gap_not_resolved
 from ...surface import Surface
@@ -18,63 +16,33 @@ from ..shared import (
     rolling_model_error,
 )
 from .answer import answer_of, violations_of_sample
-from .balanced_sample import BalancedSample, solve_sample
+from .balanced_sample import BalancedSample
 from .differences_of_strips import control_for
 from .errors_of import model_error_of_eq8
 from .estimated_work import estimated_work
 from .methods import methods_of_load_sharing
 
 
-@dataclass(frozen=True, kw_only=True)
-class PaperSolution(SampleSolution):
-    """The first strips joined to one line, with one film and one approach: ``balanced``, of which all else is a part."""
-
-    prepared: Prepared
-    sample: Sample
-    count: int
-    speed: float
-    balanced: BalancedSample
-
-    @classmethod
-    def of(cls, balanced: BalancedSample) -> PaperSolution:
-        """Return the solution that a ``balanced`` sample is."""
-        return cls(
-            prepared=balanced.prepared,
-            sample=balanced.sample,
-            count=balanced.count,
-            speed=balanced.speed,
-            balanced=balanced,
-        )
-
-    def required_strips(self) -> int:
-        return self.balanced.required_strips()
-
-    def is_too_coarse(self) -> bool:
-        return self.balanced.is_too_coarse()
-
-    def takes_more_strips_first(self) -> bool:
-        return self.balanced.takes_more_strips_first()
-
-    def corrected(self) -> PaperSolution:
-        return PaperSolution.of(self.balanced.corrected())
+class PaperSolution(BalancedSample):
+    """The first strips joined to one line, with one film and one approach, which say what they know of f."""
 
     def control(self) -> ControlVariate | None:
-        return control_for(self.balanced)
+        return control_for(self)
 
     def why_sufficient(self) -> str:
         tolerance = self.prepared.scene.numerics.model_tolerance
-        if self.balanced.response is None and max(model_error_of_eq8(self.balanced)[0]) <= tolerance:
+        if self.response is None and max(model_error_of_eq8(self)[0]) <= tolerance:
             return "load sharing alone: the film is so thick that the roughness changes f by less than the tolerance"
         return ""
 
     def heat(self) -> Heat:
-        return self.balanced.corrected_balance.forces.heat
+        return self.corrected_balance.forces.heat
 
     def violations(self) -> tuple[Violation, ...]:
-        return violations_of_sample(self.balanced)
+        return violations_of_sample(self)
 
     def answer(self) -> ModelAnswer:
-        return answer_of(self.balanced)
+        return answer_of(self)
 
 
 class PaperModel(Model):
@@ -122,5 +90,5 @@ class PaperModel(Model):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> PaperSolution:
-        begin = start.balanced if isinstance(start, PaperSolution) else None
-        return PaperSolution.of(solve_sample(prepared, sample, count, speed, begin))
+        begin = start if isinstance(start, PaperSolution) else None
+        return PaperSolution.solved(prepared, sample, count, speed, begin)
