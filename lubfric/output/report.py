@@ -195,7 +195,7 @@ def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
     """Return how many of ``total`` solved points miss the requested tolerance, and how many have no interval, in
     sentences."""
     at = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
-    words = "the numerical error of f is above the requested tolerance, and in its interval."
+    words = "the numerical error of f is above the requested tolerance" + ("." if unknown else ", and in its interval.")
     sentences = [f"{at[0]} {words}"] if inexact > 0 else []
     if unknown > 0:
         sentences.append(f"{at[1]} the interval of f is not known.")

@@ -281,6 +281,8 @@ def interval_band(
     moves = np.where(f == 0, np.nan, f)
     low, high = (at(columns.get(f"interval_{end}", unknown) / moves - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
+        if "interval_low" in columns:
+            ax.plot([], [], " ", label=f"{BAND} not known")
         return
     known = np.isfinite(columns.get("model_error", unknown))
     band = BAND + (

@@ -613,3 +613,13 @@ def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(fi
     assert len({(line.get_marker(), str(line.get_color())) for line in curves}) == len(curves) == 12
     assert len({line.get_marker() for line in curves}) == 3
     assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("Sq ")[2] for line in axes.lines}
+
+
+def test_a_curve_without_intervals_says_so():
+    speed = np.geomspace(0.01, 1.0, 3)
+    f = np.array([0.09, 0.05, 0.02])
+    unknown = np.full(3, np.nan)
+    axes = new_figure().subplots()
+    interval_band(axes, speed, {"coefficient": f, "interval_low": unknown, "interval_high": unknown})
+    assert axes.get_legend_handles_labels()[1] == ["95 % interval not known"]
+    assert not axes.collections

@@ -139,5 +139,6 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     assert shortfalls(0, 0, 3) == []
     inexact, unknown = shortfalls(2, 3, 3)
     assert inexact.startswith("At 2 of 3 points the numerical error of f is above the requested tolerance")
+    assert "in its interval" not in inexact and "in its interval" in shortfalls(2, 0, 3)[0]
     assert unknown == "At 3 of 3 points the interval of f is not known."
     assert shortfalls(0, 1, 1) == ["There the interval of f is not known."]

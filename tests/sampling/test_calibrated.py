@@ -14,6 +14,7 @@ import lubfric
 from lubfric.estimate.full_load import full_load_numbers
 from lubfric.models.deterministic import (
     RoughBody,
+    answer,
     continued_strip,
     lay_out,
     solve_moving_strip,
@@ -35,7 +36,7 @@ from lubfric.models.quick import (
     widening,
 )
 from lubfric.models.quick.calibrated_error import out_of_range
-from lubfric.models.shared import inlet_at, speed_of
+from lubfric.models.shared import Assumption, inlet_at, speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -708,3 +709,16 @@ def test_a_film_thinner_than_the_boundary_film_that_is_not_given_is_reported():
         result = lubfric.friction(inputs, speed_of(inputs, film), raise_on_failure=False)
         reported = [violation for violation in result.validity if "boundary film" in violation.consequence]
         assert len(reported) == count, (film, boundary_film, result.decision.text)
+
+
+def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give_off_the_lubricant(monkeypatch):
+    """Two per cent, as its note says: twice what half of that gap changes (`test_deterministic_point`)."""
+    scene = PAPER.with_(bodies={"load": 200.0}, numerics={"model": "quick"})
+    result = lubfric.friction(scene, 1e-4)
+    (note,) = (entry for entry in result.validity if entry.assumption == Assumption.LUBRICANT_PASSES)
+    assert note.is_note and "the interval of f has 2 % for that" in note.consequence
+    monkeypatch.setattr(answer, "ERROR_BY_GAP", 0.0)
+    without = lubfric.friction(scene, 1e-4)
+    assert without.coefficient == result.coefficient
+    by_gap = math.sqrt(result.uncertainty.model**2 - without.uncertainty.model**2)
+    assert by_gap == pytest.approx(0.02, rel=0.1)

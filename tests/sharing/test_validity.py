@@ -22,6 +22,7 @@ from lubfric.models.shared import (
     violations_by_deflection,
     violations_by_map,
     violations_by_motion,
+    violations_by_numerical_error,
     violations_by_pressure,
     violations_by_shear,
     violations_by_thickness,
@@ -257,6 +258,8 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     fast = lubfric.friction(scene, 1.0)
     kinds = {violation.assumption: violation.is_note for violation in fast.validity}
     assert kinds[Assumption.NUMERICAL_ERROR] is True and kinds[Assumption.HEAT_INCLUDED] is False
+    (large,) = violations_by_numerical_error(0.3, 0.01, "")
+    assert not large.is_note and "order of magnitude" in large.consequence
     assert fast.not_in_interval.startswith(
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )

@@ -65,6 +65,10 @@ ON_ENDS = 0.01
 # Name of the numerical error where it is above the requested tolerance; tables of studies hold it as text.
 NUMERICAL_ERROR = "estimated numerical error of f"
 
+# Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: an
+# extrapolation from grid to grid is no more than an order of magnitude there.
+LARGE_NUMERICAL_ERROR = 0.2
+
 # Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
 REFUSED_SHARE = 0.2
 
@@ -411,14 +415,19 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
 
 
 def violations_by_numerical_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
-    """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): the
-    interval of f has it."""
+    """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): an
+    interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
     if error is not None and error > tolerance:
-        why = "this is more than the limit that numerics.tolerance sets; the interval of f includes it"
+        is_large = error > LARGE_NUMERICAL_ERROR
+        why = (
+            "this is more than the limit that numerics.tolerance sets; the interval of f includes it where it is known"
+        )
+        if is_large:
+            why = "this is so much that f is an order of magnitude only"
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,
-            is_note=True,
+            is_note=not is_large,
             value=100 * error,
             limit=100 * tolerance,
             unit="%",
