@@ -130,6 +130,11 @@ class Sample(ABC):
         """Return what a piece is, in words."""
         return "a piece of the surface"
 
+    def piece_on_cells_in_words(self, spacing: tuple[float, float]) -> str:
+        """Return what a piece on cells of this ``spacing`` [m] is, in words."""
+        dx, dy = (f"{1e6 * step:.3g}" for step in spacing)
+        return f"{self.piece_in_words()}, on cells of {dx} x {dy} µm"
+
     def described(self, surface: Surface) -> list[str]:
         """Return in words the map that the scene has, and ``surface``, its `stated_map`."""
         joined = f"{self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"

@@ -99,7 +99,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
 
         def ladder(*_, times=2, **length):
             assert times == 2 or length["length"] < 42
-            return tuple(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
+            return shorter.Piece(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_, **__: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)

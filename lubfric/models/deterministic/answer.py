@@ -197,10 +197,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     length = pictured_length(prepared.scene, sample)
     rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=length)
     strip = solve_strip(prepared.scene, map_of_contact(prepared, rough_contact), speed)
-    where = sample.piece_in_words()
-    return fields_of(
-        strip, f"{where}, on cells of {rough_contact.spacing[0] * 1e6:.3g} x {rough_contact.spacing[1] * 1e6:.3g} µm"
-    )
+    return fields_of(strip, sample.piece_on_cells_in_words(rough_contact.spacing))
 
 
 def _change_by_hardness(strip: StripSolution, scene: Scene, end: Scene) -> float:
@@ -360,7 +357,8 @@ def _words_of_levels(levels: Levels) -> str:
     pieces = levels.pieces
     strips = f"{count} strip{'s' if count > 1 else ''} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
     if pieces:
-        times = round(pieces[0][1].result.spacing[0] / pieces[0][-1].result.spacing[0])
+        cell_of_strips = pieces[0].on_cells_of_strips.result.spacing[0]
+        times = round(cell_of_strips / pieces[0].on_shortest_cells.result.spacing[0])
         strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
     if levels.shortest:
         strips += f", of cells {2 * times} times as short on a shorter one"

@@ -44,7 +44,7 @@ from .cells_in_motion import cells_of_strips, changed_as_expected
 from .counted_work import MOST_WORK_OF_POINT
 from .result import DeterministicResult
 from .rough_bodies import summit_control
-from .shorter_cells import NO_SHORTER_CELLS, changed_by_pieces, on_shorter_cells
+from .shorter_cells import NO_SHORTER_CELLS, Piece, changed_by_pieces, on_shorter_cells
 from .strip import StripSolution, change_by_flow, thinned_less
 from .strip_on_two_grids import (
     StripOnTwoGrids,
@@ -120,7 +120,7 @@ class Levels:
     control_strips : number of strips of the first level, the control; 0: it was omitted
     pairs : the strips of the second level
     pieces : those of the third, each on shorter and shorter cells
-    shortest : the piece of the fourth; (): none
+    shortest : the piece of the fourth; empty: there is none
     finest : the first strip, on the shortest cells that it is solved on
     sampling_error : relative, of f, by the number of strips
     difference_error : relative standard error of f, by the difference between the models
@@ -137,8 +137,8 @@ class Levels:
     by_inlet: float
     control_strips: int
     pairs: tuple[StripOnTwoGrids, ...]
-    pieces: tuple[tuple[StripSolution, ...], ...]
-    shortest: tuple[StripSolution, ...]
+    pieces: tuple[Piece, ...]
+    shortest: Piece
     finest: StripSolution
     sampling_error: StandardError
     difference_error: StandardError
@@ -265,8 +265,9 @@ def levels_of(
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
     as_expected = changed_as_expected(estimate.numbers, shorter.change)
-    third = changed_by_pieces(prepared, as_expected, [(piece[1], piece[-1]) for piece in shorter.pieces])
-    fourth = changed_by_pieces(prepared, third, [shorter.shortest[-2:]] if shorter.shortest else [])
+    of_third_level = [(piece.on_cells_of_strips, piece.on_shortest_cells) for piece in shorter.pieces]
+    third = changed_by_pieces(prepared, as_expected, of_third_level)
+    fourth = changed_by_pieces(prepared, third, [shorter.shortest.last_two] if shorter.shortest else [])
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])

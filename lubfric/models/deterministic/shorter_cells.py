@@ -91,8 +91,30 @@ UNSOLVED_FACTOR = 2.0
 # a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
 SOFT_CELL_ERROR = 1.5
 
-# A piece of the surface, solved on shorter and shorter cells.
-Piece = tuple[StripSolution, ...]
+
+class Piece(tuple[StripSolution, ...]):
+    """A piece of the surface, solved on shorter and shorter cells: twice as long as those of the strips, as long, and half as
+    long each time."""
+
+    @property
+    def on_cells_of_strips(self) -> StripSolution:
+        """The piece on cells as long as those of the strips."""
+        return self[1]
+
+    @property
+    def on_shortest_cells(self) -> StripSolution:
+        """The piece on its shortest cells."""
+        return self[-1]
+
+    @property
+    def last_two(self) -> tuple[StripSolution, StripSolution]:
+        """The piece on cells twice as long as the shortest, and on these."""
+        return self[-2], self[-1]
+
+    @property
+    def change(self) -> float:
+        """Relative change of f from the cells of the strips to the shortest."""
+        return self.on_shortest_cells.result.coefficient / self.on_cells_of_strips.result.coefficient - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +124,7 @@ class ShorterCells:
     Attributes
     ----------
     pieces : those of the third level; (): it is not needed, or not solved
-    shortest : the piece of the fourth level; (): it is not needed, or not solved
+    shortest : the piece of the fourth level; empty: it is not needed, or not solved
     strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
     sampling_error : of the mean relative change of f on ``pieces``, from place to place
     change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
@@ -111,7 +133,7 @@ class ShorterCells:
     """
 
     pieces: tuple[Piece, ...] = ()
-    shortest: Piece = ()
+    shortest: Piece = Piece()
     strip: StripSolution | None = None
     sampling_error: StandardError = StandardError(0.0, 1)
     change: float = 0.0
@@ -150,9 +172,11 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         refined_strips = _refined(prepared, speed, 0, first=pairs[0], find_slope=True)
         return ShorterCells(
             pieces=(refined_strips,),
-            strip=refined_strips[-1],
+            strip=refined_strips.on_shortest_cells,
             error=max(
-                error_by_cells(changes_of(refined_strips)), LEAST_STRIP_ERROR, error_of_soft_bodies(refined_strips[-1])
+                error_by_cells(changes_of(refined_strips)),
+                LEAST_STRIP_ERROR,
+                error_of_soft_bodies(refined_strips.on_shortest_cells),
             ),
         )
     try:
@@ -160,11 +184,10 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             pieces, scatter = _third_level(prepared, speed, pairs)
     except ConvergenceError:
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
-    changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
-    change = abs(float(np.mean(changes)))  # its error is reported
+    change = abs(float(np.mean([piece.change for piece in pieces])))  # its error is reported
     coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
-    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0][-1]))
+    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0].on_shortest_cells))
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), floor)
     if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
@@ -174,10 +197,10 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
     except ConvergenceError:
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
-    coarse, fine = (strip.result for strip in shortest[-2:])
+    coarse, fine = (strip.result for strip in shortest.last_two)
     further = abs(1 - coarse.coefficient / fine.coefficient)
-    of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
-    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(shortest[-1]))
+    of_mean = math.sqrt(max(changes_of(shortest.last_two)[0] ** 2 - further**2, 0.0))  # scatter of it over places
+    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(shortest.on_shortest_cells))
     error = math.hypot(
         max(error_by_cells((change, further), max(halvings - 2, 1)), ERROR_OF_SHORT_PIECE * further, floor), of_mean
     )
@@ -221,7 +244,7 @@ def _third_level(
 
 def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequence[Piece]) -> bool:
     """Return whether the fourth level would take a point beyond `MOST_WORK_OF_POINT`."""
-    finest = pieces[0][-1]
+    finest = pieces[0].on_shortest_cells
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     length = finest.result.load_at.size * finest.result.spacing[1]
     share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
@@ -235,13 +258,13 @@ def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
 
 
 def changed_by_pieces(
-    prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[StripSolution]]
+    prepared: Prepared, numbers: dict[str, float], pieces: Sequence[tuple[StripSolution, StripSolution]]
 ) -> dict[str, float]:
     """Return ``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer
     and the shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
     if not pieces:
         return numbers
-    rows = [[numbers_of_strip(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
+    rows = [[numbers_of_strip(prepared, strip.result) for strip in level] for level in zip(*pieces)]
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
     load = prepared.scene.bodies.load
@@ -297,7 +320,7 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
         error.value <= tolerance or spent > PIECES_WORK
     ):
         if pieces:
-            pieces.append(_refined(prepared, speed, len(pieces), slope=pieces[0][1].slope))
+            pieces.append(_refined(prepared, speed, len(pieces), slope=pieces[0].on_cells_of_strips.slope))
         else:
             pieces.append(_refined(prepared, speed, 0, first=first, find_slope=True))
         error = _error(pieces, sample)
@@ -352,7 +375,7 @@ def _refined(
             solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
         )
     slope = ladder[1].slope if find_slope else slope
-    return tuple(replace(one, slope=slope) for one in ladder)
+    return Piece(replace(one, slope=slope) for one in ladder)
 
 
 def _error(pieces: Sequence[Piece], sample: Sample) -> StandardError:
@@ -360,8 +383,9 @@ def _error(pieces: Sequence[Piece], sample: Sample) -> StandardError:
     from place to place."""
     changes = []
     for piece in pieces:
-        base = piece[1]
-        last = piece[-1]
+        base = piece.on_cells_of_strips
+        last = piece.on_shortest_cells
         places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1) - base.deviations
         changes.append((places + last.result.coefficient - base.result.coefficient) / abs(base.result.coefficient))
-    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], sample.correlation_lengths[1])
+    dy = pieces[0].on_cells_of_strips.problem.spacing[1]
+    return block_error(np.concatenate(changes), dy, sample.correlation_lengths[1])

@@ -115,8 +115,8 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
         state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
     else:
         state = balanced.point.pressed(rough_contact, balance.film, balance.contact_load, None)
-    words = f"{sample.piece_in_words()}, on cells of {rough_contact.spacing[0] * 1e6:.3g} x {rough_contact.spacing[1] * 1e6:.3g} µm"
-    return fields_on(rough_contact, balance, state.fields, scene, words)
+    where = sample.piece_on_cells_in_words(rough_contact.spacing)
+    return fields_on(rough_contact, balance, state.fields, scene, where)
 
 
 def fields_on(
