@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -82,6 +83,7 @@ class StripsOnLongCells:
 
     Attributes
     ----------
+    scene : that they are solved for
     levels : their estimate
     error_model : of such contacts
     bias : of ln of the sliding part of f
@@ -90,6 +92,7 @@ class StripsOnLongCells:
     outside : what is outside of it
     """
 
+    scene: Scene
     levels: Levels
     error_model: ErrorModel
     bias: float
@@ -97,55 +100,70 @@ class StripsOnLongCells:
     widening: float
     outside: tuple[Outside, ...]
 
-    def numbers(self, scene: Scene) -> dict[str, float]:
-        """Return the numbers of the strips without their bias, which is one of the sliding part of f.
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """The numbers of the strips without their bias, which is one of the sliding part of f.
 
         The bias of f is one of the asperity load, with f_b on asperities and the mean stress of the film beside it as
         they are. What f has beyond that, because asperities carry none or all of the load, or have the stress of the
         film, remains in the shear of the film. So the forces add up to f.
         """
         numbers = self.levels.numbers
-        if scene.motion.slide_roll_ratio == 0:
+        if self.scene.motion.slide_roll_ratio == 0:
             return numbers
-        load = scene.bodies.load
+        load = self.scene.bodies.load
         rolling = numbers["rolling_force"]
         force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
-        f_b = scene.bodies.boundary_friction_coefficient
-        share = numbers["contact_load"] / load
+        f_b = self.scene.bodies.boundary_friction_coefficient
         stress_of_film = numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else f_b
         contrast = f_b - stress_of_film
-        new_share = share
+        load_ratio = numbers["contact_load"] / load
         if contrast > LEAST_CONTRAST * f_b:
-            new_share = min(max(share + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
-        times = new_share / share if share > 0 else 0.0
-        boundary = numbers["boundary_force"] * times
-        if share == 0:
-            boundary = f_b * new_share * load
-        of_films = (
-            times if scene.lubricant.has_unlimited_stress else (1 - new_share) / (1 - share) if share < 1 else 0.0
-        )
-        changed = numbers | {
-            "coefficient": force / load,
-            "contact_load": new_share * load,
-            "film_load": (1 - new_share) * load,
-            "boundary_film_load": numbers["boundary_film_load"] * times if share > 0 else new_share * load,
-            "saturated_film_load": numbers["saturated_film_load"] * of_films,
-            "boundary_force": boundary,
-        }
+            load_ratio = min(max(load_ratio + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
+        changed = _with_asperity_load_ratio(self.scene, numbers, load_ratio) | {"coefficient": force / load}
         return with_forces_of_film(changed, load)
 
-    def bounds(self, scene: Scene) -> Sides:
-        """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is
-        the rolling part."""
-        numbers = self.numbers(scene)
-        f = numbers["coefficient"]
-        rolling = f if scene.motion.slide_roll_ratio == 0 else numbers["rolling_force"] / scene.bodies.load
+    @property
+    def bounds(self) -> Sides:
+        """The 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is the rolling
+        part."""
+        f = self.numbers["coefficient"]
+        is_rolling = self.scene.motion.slide_roll_ratio == 0
+        rolling = f if is_rolling else self.numbers["rolling_force"] / self.scene.bodies.load
         sliding = abs(f - rolling)
         if f == 0:
             return Sides(math.inf, math.inf)
         of_rolling = self.widening * self.error_model.rolling_error(rolling, sliding)
         towards, away = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
         return Sides(math.hypot(towards, of_rolling) / abs(f), math.hypot(away, of_rolling) / abs(f))
+
+
+def _with_asperity_load_ratio(scene: Scene, numbers: dict[str, float], load_ratio: float) -> dict[str, float]:
+    """Return ``numbers`` with another asperity load ratio F_C/F_T.
+
+    Friction and films of the asperity contacts change in proportion to their load. Where no asperity carried any, all of the
+    load is on boundary film, with f_b. A saturated film is one of asperities; with a shear law it is one of the film load.
+    """
+    load = scene.bodies.load
+    before = numbers["contact_load"] / load
+    if before > 0:
+        growth = load_ratio / before
+        boundary_force = numbers["boundary_force"] * growth
+        boundary_film_load = numbers["boundary_film_load"] * growth
+    else:
+        growth = 0.0
+        boundary_force = scene.bodies.boundary_friction_coefficient * load_ratio * load
+        boundary_film_load = load_ratio * load
+    growth_of_saturated_film = growth
+    if not scene.lubricant.has_unlimited_stress:
+        growth_of_saturated_film = (1 - load_ratio) / (1 - before) if before < 1 else 0.0
+    return numbers | {
+        "contact_load": load_ratio * load,
+        "film_load": (1 - load_ratio) * load,
+        "boundary_film_load": boundary_film_load,
+        "saturated_film_load": numbers["saturated_film_load"] * growth_of_saturated_film,
+        "boundary_force": boundary_force,
+    }
 
 
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
@@ -165,6 +183,7 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     outside = out_of_range(scene, prepared.surface.sq, speed, error_model.range)
     factor = widening(part.distance for part in outside)
     return StripsOnLongCells(
+        scene=scene,
         levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
         error_model=error_model,
         bias=error_model.bias_at(x),
@@ -231,11 +250,10 @@ def _solve_pair(
 
 def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLongCells) -> ModelAnswer:
     """Return the answer of the strips ``on_long_cells`` at ``speed`` [m/s] without their bias, with its error."""
-    scene = prepared.scene
-    levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers(scene))
+    levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers)
     answer = deterministic_answer(prepared, speed, levels)
     by_cells = ModelErrorPart(
-        sides=on_long_cells.bounds(scene),
+        sides=on_long_cells.bounds,
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
     )
