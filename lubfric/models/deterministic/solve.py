@@ -2,8 +2,9 @@
 
 import hashlib
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -119,35 +120,28 @@ def solve_point(
 ) -> DeterministicResult:
     """Solve gap, pressure and friction of ``problem`` on its own grid.
 
-    Tried in turn until one converges:
-
-    - Newton's method from ``start``, a state on the same grid, until a step is shorter than ``least``;
-    - from the dry contact, lifted by the expected film, where the pressure is high first by the part `LIFT` of it;
-    - without ``start``, of soft bodies (`are_soft`), from the state that implicit steps in time reach from there;
-    - for a Newtonian lubricant, from the solution with a limiting shear stress;
-    - from the state that implicit steps in time reach from ``start``;
-    - from a higher speed, as long as each step down leads there;
-    - without ``start``, of other bodies, from the state that implicit steps in time reach from the dry contact;
-    - from that higher speed in steps as short as needed;
-    - from the dry contact, lifted by the parts `LAST_LIFTS` of the expected film.
-
-    Together they take at most ``most`` factorisations. ``report.notes`` says which one it was. Converged when the
-    largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
-    result.
+    The `WAYS` are tried in turn until one converges; together they take at most ``most`` factorisations. ``report.notes``
+    says which one it was. From ``start``, a state on the same grid, Newton's method ends where a step is shorter than
+    ``least``. Converged when the largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises
+    `ConvergenceError` with report and result.
     """
     work = Work(most)
     tried: list[tuple[str, NewtonResult]] = []
-    for attempt in _attempts(problem, start, least, tolerance, work):
+    search = PointSearch(problem=problem, start=start, least=least, tolerance=tolerance, work=work)
+    for attempt in _attempts(search):
         tried.append(attempt)
         if attempt[1].residual <= tolerance:
             break
     name, result = min(tried, key=lambda attempt: attempt[1].residual if attempt[1].residual >= 0 else math.inf)
     worst = result.residual if math.isfinite(result.residual) else math.inf
     ways = ", ".join(f"{way} ({ended.residual:.1e})" for way, ended in tried)
+    status = ITERATION_LIMIT if worst < math.inf else DIVERGED
+    if worst <= tolerance:
+        status = CONVERGED
     spent = f"{work.factorisations} of {most} factorisations"
     report = Report(
         "deterministic mixed film",
-        status=CONVERGED if worst <= tolerance else ITERATION_LIMIT if worst < math.inf else DIVERGED,
+        status=status,
         iterations=work.factorisations,
         residual=worst,
         tolerance=tolerance,
@@ -163,69 +157,201 @@ def solve_point(
     return returned(assemble(result.at, report))
 
 
-def _attempts(
-    problem: Problem, start: State | None, least: float, tolerance: float, work: Work
-) -> Iterator[tuple[str, NewtonResult]]:
-    is_soft = are_soft(problem.line, float(problem.heights.std()))
-    patience = SOFT_PATIENCE if is_soft else NEWTON_PATIENCE
-    if start is not None:
-        near = newton(
-            problem,
-            start,
-            work,
-            tolerance=tolerance,
-            most=FACTORISATIONS_FROM_NEARBY,
-            least=least,
-            patience=patience,
-            ends_unsolved=is_soft,
+@dataclass(frozen=True, kw_only=True)
+class PointSearch:
+    """What all ways to a solution have in common; arguments as of `solve_point`.
+
+    Attributes
+    ----------
+    problem : to be solved
+    start : a state on the same grid; None: there is none
+    least : part of a Newton step from there [-], below which it is given up
+    tolerance : on the largest residual
+    work : what all ways together have taken
+    faster : solutions at higher speeds, by their speed over that of the problem, that one way leaves to a later one
+    """
+
+    problem: Problem
+    start: State | None
+    least: float
+    tolerance: float
+    work: Work
+    faster: dict[float, State] = field(default_factory=dict)
+
+    @cached_property
+    def is_soft(self) -> bool:
+        """Whether the bodies are soft (`are_soft`)."""
+        return are_soft(self.problem.line, float(self.problem.heights.std()))
+
+    @property
+    def patience(self) -> int:
+        """Steps in which the residual has to fall."""
+        return SOFT_PATIENCE if self.is_soft else NEWTON_PATIENCE
+
+    @cached_property
+    def dry(self) -> ContactResult:
+        """The dry contact."""
+        return dry_contact(self.problem)
+
+    @property
+    def lifted(self) -> State:
+        """The dry contact, lifted by the part of the expected film that is tried first."""
+        return dry_start(self.problem, self.dry, _lifts(self.problem)[0])
+
+
+def _from_start(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result of Newton's method from the given start."""
+    assert search.start is not None
+    yield newton(
+        search.problem,
+        search.start,
+        search.work,
+        tolerance=search.tolerance,
+        most=FACTORISATIONS_FROM_NEARBY,
+        least=search.least,
+        patience=search.patience,
+        ends_unsolved=search.is_soft,
+    )
+
+
+def _from_dry_contact(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the results from the dry contact, lifted by the film that is expected there or by parts of it (`_lifts`)."""
+    most = FACTORISATIONS_FROM_DRY // 2 if is_starved(search.problem) else FACTORISATIONS_FROM_DRY
+    yield from _from_lifts(search, _lifts(search.problem), most)
+
+
+def _from_last_lifts(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the results from the dry contact, lifted by parts of the film that no other way tries."""
+    yield from _from_lifts(search, LAST_LIFTS, FACTORISATIONS_FROM_DRY)
+
+
+def _from_lifts(search: PointSearch, parts: tuple[float, ...], most: int) -> Iterator[NewtonResult]:
+    """Yield the results from the dry contact, lifted by these ``parts`` of the expected film, with at most so many
+    factorisations each."""
+    for part in parts:
+        yield newton(
+            search.problem,
+            dry_start(search.problem, search.dry, part),
+            search.work,
+            tolerance=search.tolerance,
+            most=most,
+            patience=search.patience,
+            ends_unsolved=search.is_soft,
         )
-        yield "from a neighbouring state", near
-    dry = dry_contact(problem)
-    lifts = _lifts(problem)
-    cold = dry_start(problem, dry, lifts[0])
 
-    def lifted(parts: tuple[float, ...], most: int) -> Iterator[tuple[str, NewtonResult]]:
-        for part in parts:
-            begin = dry_start(problem, dry, part)
-            result = newton(
-                problem, begin, work, tolerance=tolerance, most=most, patience=patience, ends_unsolved=is_soft
-            )
-            yield "from the dry contact", result
 
-    yield from lifted(lifts, FACTORISATIONS_FROM_DRY // 2 if is_starved(problem) else FACTORISATIONS_FROM_DRY)
-    if start is None and is_soft:
-        yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
-    lubricant = problem.lubricant
-    if lubricant.has_unlimited_stress:
-        limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
-        with_limit = replace(problem, line=replace(problem.line, lubricant=limited))
-        helped = newton(with_limit, cold, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)
-        if helped.residual <= tolerance:
-            result = newton(problem, helped.at.state, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)
-            yield "from a fluid with a limiting stress", result
-    if start is not None:
-        yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
-    faster: list[tuple[float, State]] = []
+def _in_time_from_dry_contact(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result from the state that implicit steps in time reach from the dry contact."""
+    yield _in_time(search.problem, search.lifted, search.tolerance, search.work)
+
+
+def _in_time_from_start(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result from the state that implicit steps in time reach from the given start."""
+    assert search.start is not None
+    yield _in_time(search.problem, search.start, search.tolerance, search.work)
+
+
+def _from_limited_stress(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result from the solution with a limiting shear stress, if there is one."""
+    problem = search.problem
+    limited = replace(problem.lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
+    with_limit = replace(problem, line=replace(problem.line, lubricant=limited))
+    helped = newton(with_limit, search.lifted, search.work, tolerance=search.tolerance, most=FACTORISATIONS_FROM_DRY)
+    if helped.residual <= search.tolerance:
+        yield newton(problem, helped.at.state, search.work, tolerance=search.tolerance, most=FACTORISATIONS_FROM_DRY)
+
+
+def _from_first_faster_speed(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result from the first of `START_SPEEDS` that is solved, as long as each step down leads there."""
     for times in START_SPEEDS:
-        fast = problem.at_speed(times * problem.speed)
+        fast = search.problem.at_speed(times * search.problem.speed)
         helped = newton(
             fast,
-            dry_start(fast, dry, _lifts(fast)[0]),
-            work,
+            dry_start(fast, search.dry, _lifts(fast)[0]),
+            search.work,
             tolerance=RESIDUAL_ON_THE_WAY,
             most=FACTORISATIONS_FROM_DRY,
         )
         if helped.residual <= RESIDUAL_ON_THE_WAY:
-            faster.append((times, helped.at.state))
-            result = _from_faster(problem, helped.at.state, times, tolerance, work, failures=0)
-            yield "step by step from a faster speed", result
-            break
-    if start is None and not is_soft:
-        yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
-    for times, state in faster:
-        result = _from_faster(problem, state, times, tolerance, work, failures=MOST_FACTORISATIONS)
-        yield "step by step from a faster speed", result
-    yield from lifted(LAST_LIFTS, FACTORISATIONS_FROM_DRY)
+            search.faster[times] = helped.at.state
+            yield _from_faster(search.problem, helped.at.state, times, search.tolerance, search.work, failures=0)
+            return
+
+
+def _from_faster_speed_in_short_steps(search: PointSearch) -> Iterator[NewtonResult]:
+    """Yield the result from that faster speed, if it is solved, in steps as short as needed."""
+    for times, state in search.faster.items():
+        yield _from_faster(search.problem, state, times, search.tolerance, search.work, failures=MOST_FACTORISATIONS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Way:
+    """A way to a solution.
+
+    Attributes
+    ----------
+    name : as the report says it
+    applies : whether it is tried
+    results : does it, once or several times, or not at all
+    """
+
+    name: str
+    applies: Callable[[PointSearch], bool] = lambda search: True
+    results: Callable[[PointSearch], Iterator[NewtonResult]]
+
+
+# The ways to a solution, in the order in which they are tried.
+WAYS = (
+    Way(
+        name="from a neighbouring state",
+        applies=lambda search: search.start is not None,
+        results=_from_start,
+    ),
+    Way(
+        name="from the dry contact",
+        results=_from_dry_contact,
+    ),
+    Way(
+        name="in time from the dry contact",
+        applies=lambda search: search.start is None and search.is_soft,
+        results=_in_time_from_dry_contact,
+    ),
+    Way(
+        name="from a fluid with a limiting stress",
+        applies=lambda search: search.problem.lubricant.has_unlimited_stress,
+        results=_from_limited_stress,
+    ),
+    Way(
+        name="in time from a neighbouring state",
+        applies=lambda search: search.start is not None,
+        results=_in_time_from_start,
+    ),
+    Way(
+        name="step by step from a faster speed",
+        results=_from_first_faster_speed,
+    ),
+    Way(
+        name="in time from the dry contact",
+        applies=lambda search: search.start is None and not search.is_soft,
+        results=_in_time_from_dry_contact,
+    ),
+    Way(
+        name="step by step from a faster speed",
+        results=_from_faster_speed_in_short_steps,
+    ),
+    Way(
+        name="from the dry contact",
+        results=_from_last_lifts,
+    ),
+)
+
+
+def _attempts(search: PointSearch) -> Iterator[tuple[str, NewtonResult]]:
+    """Yield the results of all `WAYS` that apply, each with the name of its way."""
+    for way in WAYS:
+        if way.applies(search):
+            for result in way.results(search):
+                yield way.name, result
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
