@@ -214,7 +214,9 @@ class FolderLock:
         """Return the process that is written in the file; None where it holds something else."""
         self._file.seek(0)
         words = self._file.read(80).split()
-        return words[1] if len(words) == 2 and words[0] == "lubfric" else None if words else ""
+        if not words:
+            return ""
+        return words[1] if len(words) == 2 and words[0] == "lubfric" else None
 
     def _is_still_there(self) -> bool:
         try:

@@ -186,15 +186,15 @@ def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accurac
     omitted."""
     log_pressure = np.log(pressure)
     left_out_errors = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
-    error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in left_out_errors)
+    error, of_area = (halved * np.maximum(each[1:], each[:-1]) for each in left_out_errors)
     middle = np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     effect = (1 - share) * np.minimum(share / LOAD_ERROR_MATTERS, 1.0)  # of f, by a relative error of the load
     allowed = np.minimum(middle, rate / np.maximum(effect, CLOSED_GAP))
     deep = middle <= CLOSED_GAP * gap[-1]
-    off = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
-    return off & ~deep & (-np.diff(log_pressure) > CLOSEST_NODES)
+    is_inaccurate = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
+    return is_inaccurate & ~deep & (-np.diff(log_pressure) > CLOSEST_NODES)
 
 
 def errors_between(pressure: FloatArray, values: FloatArray) -> np.ndarray:

@@ -240,7 +240,9 @@ def contact_result(
     residuals = search.state.residuals | control
     pressure = state.pressure
     residual = worst(residuals)
-    status = CONVERGED if residual <= problem.tolerance else failed if search.status == CONVERGED else search.status
+    status = failed if search.status == CONVERGED else search.status
+    if residual <= problem.tolerance:
+        status = CONVERGED
     report = Report(
         search.solver,
         status,

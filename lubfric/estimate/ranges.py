@@ -129,7 +129,12 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
             notes += [f"{begin}f {change}" for change in _changes_in_words(ends, f)]
         else:
             notes.append(f"{begin}not in the interval, as {ends}")
-    relative = max(below, above) / abs(f) if f else math.inf if max(below, above) else 0.0
+    largest = max(below, above)
+    relative = 0.0
+    if f:
+        relative = largest / abs(f)
+    elif largest:
+        relative = math.inf
     is_complete = len(moved) == len(changes_of_f)
     sides = UNKNOWN_SIDES
     if f and is_complete:

@@ -179,23 +179,23 @@ def heated_film(
 
     rise = np.zeros(at.size)
     made = heat(np.full(at.size, lubricant.temperature))
-    off = mismatch(rise, made)
+    defect = mismatch(rise, made)
     history = []
     for _ in range(TEMPERATURE_ITERATIONS):
         wall = lubricant.temperature + rise
         slope = (heat(wall + DIFFERENCE_STEP) - made) / DIFFERENCE_STEP
-        step = solve_triangular(np.eye(at.size) - matrix * slope, off, lower=True)
+        step = solve_triangular(np.eye(at.size) - matrix * slope, defect, lower=True)
         share = 1.0
         while True:
             new = np.maximum(rise + share * step, 0.0)
             made = heat(lubricant.temperature + new)
-            left = mismatch(new, made)
-            if np.max(np.abs(left)) < np.max(np.abs(off)) or share < 1e-3:
+            new_defect = mismatch(new, made)
+            if np.max(np.abs(new_defect)) < np.max(np.abs(defect)) or share < 1e-3:
                 break
             share *= 0.5
         rise = new
-        off = left
-        history.append(float(np.max(np.abs(off)) / max(np.max(rise), 1e-9)))
+        defect = new_defect
+        history.append(float(np.max(np.abs(defect)) / max(np.max(rise), 1e-9)))
         if history[-1] <= TEMPERATURE_TOLERANCE:
             break
     status = CONVERGED if history[-1] <= TEMPERATURE_TOLERANCE else ITERATION_LIMIT

@@ -90,7 +90,7 @@ def shear_force(
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
-    resistance, parts, off = _rolling(p, h, 1.0 - wet, film.rolling)
+    resistance, parts, error_of_rolling = _rolling(p, h, 1.0 - wet, film.rolling)
 
     def isothermal(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return shear_stress(lubricant, pressure, sliding / thickness)
@@ -111,7 +111,7 @@ def shear_force(
     couette = np.sum(face_tau[full])
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet * 0.5 * (left[1:] + left[:-1])
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
-    quadrature += off
+    quadrature += error_of_rolling
     ratio, excess = above_carried(p, tau, np.diff(x) * wet * full)
     inlet, thin = _upstream(h[0], -x[0], radius) if film.inlet is None else (0.0, 0.0)  # nothing is sheared there
     couette += (lubricant.viscosity * sliding if warm is None and heated is None else tau[0] * h[0]) * inlet

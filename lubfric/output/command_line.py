@@ -114,7 +114,9 @@ def run(arguments: Namespace) -> None:
             f"and {scene.name} is solved on one patch; omit the option"
         )
     scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
-    what = OF_RUNS_IN_TIME if scene.transient is not None else OF_TRACTION if arguments.ratios else OF_CURVES
+    what = OF_TRACTION if arguments.ratios else OF_CURVES
+    if scene.transient is not None:
+        what = OF_RUNS_IN_TIME
     for option, of in FOR.items():
         is_default = getattr(arguments, option) in ((None, 1) if option == "workers" else (None, False))
         if not is_default and of != what:

@@ -451,11 +451,11 @@ def _law(law: Law | str, curve: CurveResult) -> str:
     if not law:
         return ""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
-        off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        deviation, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
         text = (
             "<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
-            f"most {off} from the curve through the solved points, which is known within {within} between them. Check "
+            f"most {deviation} from the curve through the solved points, which is known within {within} between them. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )
     else:
@@ -710,18 +710,16 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
     rows = []
     for label, text, key, note in inputs(scene, section):
         name = key.partition(".")[2]
-        source = (
-            _given(name, shown.pop(name))
-            if name in shown
-            else "derived"
-            if _is_short_form(section, given)
-            else "default"
-        )
+        source = "derived" if _is_short_form(section, given) else "default"
+        if name in shown:
+            source = _given(name, shown.pop(name))
         cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
         rows.append(cells)
     for name, value in shown.items():
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
-        used = ", ".join(map(str, value)) if isinstance(value, list) else "" if isinstance(value, dict) else str(value)
+        used = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+        if isinstance(value, dict):
+            used = ""
         rows.append(
             f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
         )

@@ -285,12 +285,12 @@ def run_fit(arguments: Namespace) -> None:
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
         if due(end=done == 1):
-            off = (
+            misfit_in_words = (
                 f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} of the stated deviations"
             )
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
-            state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {off}, at {place}"
+            state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
             if math.isnan(misfit):
                 state = f"search, curve {done} of about {total}: best values so far {place}"
             say(f"{state}; {passed}")

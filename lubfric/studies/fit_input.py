@@ -113,14 +113,14 @@ class Measured:
             return 0.0
         first = self.of_branch(self.branches[0])
         parts = [self.of_branch(number) for number in self.branches[1:]]
-        off = []
+        differences = []
         for part in parts:
             there = (part.x >= first.x.min()) & (part.x <= first.x.max())
             order = np.argsort(first.x)
             level = np.interp(part.x[there], first.x[order], first.coefficient[order])
-            off.append(part.coefficient[there] / level - 1.0)
-        every = np.concatenate(off)
-        return float(np.sqrt(np.mean(every**2))) if every.size else 0.0
+            differences.append(part.coefficient[there] / level - 1.0)
+        relative = np.concatenate(differences)
+        return float(np.sqrt(np.mean(relative**2))) if relative.size else 0.0
 
     @property
     def scale(self) -> np.ndarray:

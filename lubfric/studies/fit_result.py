@@ -173,8 +173,8 @@ class FitResult(Renamed, Shown):
 
         It would move f by ``sampling``, at all points together or at each by itself; the larger effect counts.
         """
-        off = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.measured.scale
-        effects = np.linalg.pinv(self.slopes / self.measured.scale[:, None], rcond=1e-8) * off
+        error = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.measured.scale
+        effects = np.linalg.pinv(self.slopes / self.measured.scale[:, None], rcond=1e-8) * error
         moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
         return dict(zip(self.parameters, (moved * self._slopes).tolist()))
 

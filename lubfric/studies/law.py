@@ -222,15 +222,15 @@ def law_of(
     sliding = scene.motion.slide_roll_ratio * U
     at_rest = max(scene.bodies.boundary_friction(*at) for at in zip(sliding.tolist(), T.tolist()))
     numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, at_rest)
-    off = value(numbers, U, T, p) / (boundary + film) - 1
+    deviations = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
     widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
     return Law(
         name=scene.name,
         numbers=numbers,
         ranges=ranges,
-        largest=float(abs(off).max()),
-        rms=float(np.sqrt(np.mean(off**2))),
+        largest=float(abs(deviations).max()),
+        rms=float(np.sqrt(np.mean(deviations**2))),
         interval=float(widths.max()),
     )
 

@@ -160,10 +160,13 @@ def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
 def _check_without_unit(name: str, key: str, quantity: Quantity, values: Any) -> None:
     """Raise `InputError` where a plain number of the column ``name`` is outside the range of machines, and is inside it
     in another unit."""
+    judged_as = key
+    if key in SPEEDS_OF_SURFACES:
+        judged_as = ENTRAINMENT
+    elif key in RADII_OF_SURFACES:
+        judged_as = RADII
     for value in _plain_numbers(values):
-        likely = printed(
-            likely_unit(ENTRAINMENT if key in SPEEDS_OF_SURFACES else RADII if key in RADII_OF_SURFACES else key, value)
-        )
+        likely = printed(likely_unit(judged_as, value))
         if likely:
             unit = printed(quantity.unit)
             read_as = f"{value:.4g} {unit}".rstrip()

@@ -99,8 +99,7 @@ class StudyPlan(FieldsOnly):
         for axis in self.axes:
             for key, values in zip(axis.keys, zip(*axis.values)):
                 numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
-                words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
-                varied[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
+                varied[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(_in_words(values))
         if self.paired:
             coordinates = {name: (POINT, np.array(values)) for name, values in self.coordinates.items()}
             return coordinates | varied | {SPEED: (POINT, np.array(self.point_speeds))}
@@ -128,6 +127,17 @@ class StudyPlan(FieldsOnly):
     explain = explain
     warnings = warnings_of
     to_toml = study_toml
+
+
+def _in_words(values: tuple[Any, ...]) -> list[str]:
+    """Return ``values`` of a key as the words of a coordinate."""
+    words = []
+    for value in values:
+        if isinstance(value, str):
+            words.append(value)
+        else:
+            words.append(repr(value) if is_dataclass(value) else json.dumps(value))
+    return words
 
 
 def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:

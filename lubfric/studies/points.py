@@ -57,7 +57,9 @@ def solved(
         first = speeds or (math.nan,)
 
     def solve(speed: float) -> Outcome:
-        fields: bool | str = ("fine" if fine_fields else True) if speed in kept else False
+        fields: bool | str = speed in kept
+        if fields and fine_fields:
+            fields = "fine"
         key_of_point = point_key(key, speed, fields=fields)
         outcome = store.get(key_of_point, OUTCOME)
         if outcome is None:

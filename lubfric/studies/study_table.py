@@ -23,7 +23,9 @@ class StudyTable:
 
     def __init__(self, plan: Any):
         self.plan = plan
-        self.width = MOST_CHOSEN_SPEEDS if plan.chooses_speeds else 1 if plan.paired else len(plan.speeds)
+        self.width = 1 if plan.paired else len(plan.speeds)
+        if plan.chooses_speeds:
+            self.width = MOST_CHOSEN_SPEEDS
         self.columns: dict[str, np.ndarray] = {}
         self.status = np.full(self._shape, UNUSED if plan.chooses_speeds else MISSING, dtype=object)
         self.validity = np.full(self._shape, "", dtype=object)

@@ -285,9 +285,11 @@ def interval_band(
             ax.plot([], [], " ", label=f"{BAND} not known")
         return
     known = np.isfinite(columns.get("model_error", unknown))
-    band = BAND + (
-        "" if known.all() else ", model-form error where known" if known.any() else ", without model-form error"
-    )
+    band = BAND
+    if not known.any():
+        band += ", without model-form error"
+    elif not known.all():
+        band += ", model-form error where known"
     if as_bars:
         lengths = f - columns["interval_low"], columns["interval_high"] - f
         ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=figures.BLUE, elinewidth=0.8, capsize=2.5, label=band)
@@ -404,7 +406,9 @@ def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: s
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for (row, column), value in np.ndenumerate(values):
         known = np.isfinite(value)
-        colour = ("k" if value > middle else "w") if known else figures.RED
+        colour = figures.RED
+        if known:
+            colour = "k" if value > middle else "w"
         ax.text(column, row, f"{value:.3g}" if known else "no answer", ha="center", va="center", color=colour)
     ax.set_xticks(range(x.size), [f"{value:.4g}" for value in x])
     ax.set_yticks(range(y.size), [f"{value:.4g}" for value in y])

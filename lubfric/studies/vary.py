@@ -107,7 +107,9 @@ def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
             check_key("vary", scene, name, seen)
             seen.add(name)
         cases += len(keys) > 1
-        name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
+        name = keys[0]
+        if len(keys) > 1:
+            name = CASE if cases == 1 else f"{CASE}_{cases}"
         axis = _listed(name, keys, values)
         for index in range(0 if TEMPERATURES.intersection(keys) else len(axis.values)):
             scene.with_keys(axis.at(index))  # a temperature is checked together with the oil that may be varied too

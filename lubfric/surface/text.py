@@ -418,7 +418,9 @@ def _wyko(path: Path, text: str, units: Units, spacing: Pair) -> TextMap:
         if cells[0] in HEIGHT_BLOCKS:
             start = number
             break
-        value = cells[1] if cells[0] in ("X Size", "Y Size") and len(cells) > 1 else cells[3] if len(cells) > 3 else ""
+        value = cells[3] if len(cells) > 3 else ""
+        if cells[0] in ("X Size", "Y Size") and len(cells) > 1:
+            value = cells[1]
         if fields.setdefault(cells[0], value) != value:
             raise InputError(f"file {path.name} states {cells[0]} twice: {fields[cells[0]]} and {value}")
     if start is None:
@@ -625,7 +627,9 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
     """Return (separator or None for blanks, whether the comma is the decimal mark)."""
     commas = [(number, text) for number, text in lines if "," in text]
     semicolon, tab = (any(mark in text for _, text in lines) for mark in ";\t")
-    separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
+    separator = "\t" if any(_EMPTY.search(text) for _, text in lines) else None
+    if semicolon:
+        separator = ";"
     if decimal == "," or not commas or semicolon or tab:
         if commas and decimal == ".":
             raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; give decimal = ','")

@@ -389,18 +389,18 @@ def _summed(
     rolls = 0.5 * _halfway(h) * np.diff(pressure)
     taken = float(np.sum(rolls * (1.0 - free)))  # by the asperity contacts
     wet = np.flatnonzero(pressure > 0.0)
-    off = 2 / 3 * abs(float(np.sum((middle - _halfway(tau)) * full)))
+    error = 2 / 3 * abs(float(np.sum((middle - _halfway(tau)) * full)))
     if wet.size > 4:
         inside = slice(wet[0], wet[-1] + 1)
-        off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
-    off += float(np.sum(np.abs(_halfway(tau)) * free * np.diff(x) * part_error))
+        error = max(error, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
+    error += float(np.sum(np.abs(_halfway(tau)) * free * np.diff(x) * part_error))
     drags = tau[[0, -1]] * h[[0, -1]] if drag is None else np.full(2, drag)
     more, rolling = _tails(model, time, drags, solution)
     width = model.setting.line_history.width
     return ShearForce(
         couette=width * (float(np.sum(_halfway(tau) * full)) + more),
         rolling=width * (float(np.sum(rolls * free)) + rolling),
-        quadrature=width * off,
+        quadrature=width * error,
         rolling_parts=width * (abs(float(np.sum(rolls))) + abs(taken)),
         excess=width * excess,
         stress_ratio=ratio,

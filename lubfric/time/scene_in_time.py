@@ -42,8 +42,11 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
         boundary_friction_table=None,
     )
     oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
-    alone = abs(sliding) > MOST_SLIDE_ROLL_RATIO * abs(speed)
-    ratio = math.copysign(MOST_SLIDE_ROLL_RATIO, sliding) if alone else sliding / speed if sliding else 0.0
+    ratio = 0.0
+    if abs(sliding) > MOST_SLIDE_ROLL_RATIO * abs(speed):
+        ratio = math.copysign(MOST_SLIDE_ROLL_RATIO, sliding)
+    elif sliding:
+        ratio = sliding / speed
     motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
     return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
 

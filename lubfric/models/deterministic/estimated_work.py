@@ -247,7 +247,9 @@ def _work_at_rest(
         finer = min(left[0], 2) * min(left[1], 2) * PIECE_LENGTH * lengths * cells
         line = scene.line_contact(abs(speed))
         is_rubbed = is_smooth and line.moes_film < RUBBED_FILM * sq and not are_soft(line, sq)
-        number = PIECES_OF_MORE_STRIPS if count > 1 else PIECES_OF_RUBBED if is_rubbed else 1.0
+        number = PIECES_OF_RUBBED if is_rubbed else 1.0
+        if count > 1:
+            number = PIECES_OF_MORE_STRIPS
         pieces += number * (1 + ON_LONGER_CELLS) * steps.work(finer, max(steps.first, _finer_steps(scene, sq, speed)))
     if max(left) >= 4:
         finest = min(left[0], 4) * min(left[1], 4) * LENGTH_OF_LAST_PIECE * lengths * cells

@@ -134,6 +134,9 @@ def solve_point(
             break
     name, result = min(tried, key=lambda attempt: attempt[1].residual if attempt[1].residual >= 0 else math.inf)
     worst = result.residual if math.isfinite(result.residual) else math.inf
+    status = ITERATION_LIMIT if worst < math.inf else DIVERGED
+    if worst <= tolerance:
+        status = CONVERGED
     ways = ", ".join(f"{way} ({ended.residual:.1e})" for way, ended in tried)
     status = ITERATION_LIMIT if worst < math.inf else DIVERGED
     if worst <= tolerance:

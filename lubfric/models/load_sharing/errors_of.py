@@ -350,7 +350,7 @@ def _area_needed(balanced: BalancedSample) -> float:
     needed = 1.0
     if balanced.sample.ends_after(balanced.count):
         needed = (balanced.sampling_error.value / balanced.prepared.scene.numerics.sampling_tolerance) ** 2
-    return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
+    return max(needed, 1.0) if math.isfinite(needed) else math.nan
 
 
 def _notes(balanced: BalancedSample) -> tuple[str, ...]:

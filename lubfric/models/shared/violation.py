@@ -134,7 +134,9 @@ class Violation(Renamed):
     def text_of(self, values: str, place: str = "") -> str:
         """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
         3 m/s)"; ``place``: where the consequence holds as it is stated, if not everywhere."""
-        head = "not valid" if self.severe else "note" if self.is_note else "warning"
+        head = "note" if self.is_note else "warning"
+        if self.severe:
+            head = "not valid"
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{limit}"
