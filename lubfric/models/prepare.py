@@ -67,7 +67,7 @@ def prepare(
         if _has_same_contact(scene, like.scene):
             of_map = filter(is_of_map_alone, like.violations)
             prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.sample, like.surface), *of_map))
-            prepared.memo.keep_surface_of(like.memo)
+            prepared.memo.share_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()
         contact = like.rough_contact if like.has_given_contact else None
@@ -109,7 +109,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_c
         has_given_map=has_given_map,
         has_given_contact=has_given_contact,
     )
-    prepared.memo.keep_surface_of(memo)
+    prepared.memo.share_surface_of(memo)
     return prepared
 
 

@@ -7,7 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.load_sharing import Response, Slopes, solve_balance
+from lubfric.models.load_sharing import Response, Slopes, balanced_sample, solve_balance
 
 SCENE = paper_scene(
     contact={"shape": (96, 96), "spacing": 0.9e-6},
@@ -69,3 +69,23 @@ def test_without_a_film_nothing_is_divided_again():
     response = lubfric.friction(SCENE, 0.0).balance.response
     assert response.rates is None and response.relative("coefficient", 1e-6) == 0.0
     assert response.slopes.gap < 0 < response.slopes.contact_length and response.gap_for("coefficient", 0.01) == np.inf
+
+
+def test_the_points_of_a_traction_curve_start_from_one_balance(monkeypatch):
+    """Solved once, at a ratio of its own; each point has the bits of a point that was solved alone."""
+    ratios = [-0.4, 0.003, 0.05, 1.2]
+    scene = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
+    starts = []
+
+    def counted(scene, *arguments, **options):
+        if scene.motion.slide_roll_ratio == balanced_sample.REFERENCE_RATIO:
+            starts.append(scene)
+        return solve_balance(scene, *arguments, **options)
+
+    monkeypatch.setattr(balanced_sample, "solve_balance", counted)
+    curve = lubfric.traction(scene, ratios, speed=0.03)
+    assert len(starts) == 1
+    alone = [lubfric.friction(scene.with_(motion={"slide_roll_ratio": ratio}), 0.03) for ratio in ratios]
+    assert len(starts) == 1 + len(ratios)
+    assert curve.coefficient.tolist() == [point.coefficient for point in alone]
+    assert curve["contact_load"].tolist() == [point.contact_load for point in alone]

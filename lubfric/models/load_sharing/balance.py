@@ -112,6 +112,7 @@ def solve_balance(
     start: Balance | None = None,
     *,
     is_correctable: bool = False,
+    starts_at_other_ratio: bool = False,
 ) -> Balance:
     """Return the balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard
     deviation ``sq`` [m].
@@ -121,7 +122,8 @@ def solve_balance(
     the film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
     contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
     balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
-    contact at this one; ``is_correctable``: what the root leaves open of the volume will be corrected to first order.
+    contact at this one; ``starts_at_other_ratio``: whether its slide-roll ratio is another one, so that only its film and
+    contact serve; ``is_correctable``: what the root leaves open of the volume will be corrected to first order.
     Raises `ConvergenceError`.
     """
     if speed == 0:
@@ -140,9 +142,11 @@ def solve_balance(
                 return film_alone
             alone = film_alone.film
     settings = replace(_first_settings(scene), is_correctable=is_correctable)
-    if start is not None and start.film is not None and start.film.entrainment_speed == speed:
-        settings = start.settings or settings
-    return replace(_in_contact(Point(scene, speed, rough_contact, settings), sq, start, alone), notes=notes)
+    is_same_speed = start is not None and start.film is not None and start.film.entrainment_speed == speed
+    known = start if is_same_speed and not starts_at_other_ratio else None
+    if known is not None:
+        settings = known.settings or settings
+    return replace(_in_contact(Point(scene, speed, rough_contact, settings), sq, start, alone, known), notes=notes)
 
 
 def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
@@ -198,10 +202,12 @@ def _touches_certainly(scene: Scene, speed: float, rough_contact: RoughContact) 
     return volume_residual(rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0)) > 0
 
 
-def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
+def _in_contact(
+    point: Point, sq: float, start: Balance | None, alone: EHLResult | None, known: Balance | None
+) -> Balance:
     """Return film and contact in balance, solved again until the settings are those that the balance shows to be needed.
 
-    ``alone``: the film of the total load, if it is solved. Where a root cannot be found as closely as needed, because
+    ``alone``: the film of the total load, if it is solved; ``known``: ``start``, if it has the speed and the sliding of the point. Where a root cannot be found as closely as needed, because
     f jumps with single cells, the last one is kept and its error reported.
     """
     near = _root_start(point, sq, start)
@@ -211,9 +217,9 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     converged: Balance | None = None
     response: Response | None = None
     response_at = math.nan  # its ln(F_H/F_C)
-    if start is not None and start.film is not None and start.film.entrainment_speed == point.speed:
-        response = start.response
-        response_at = start.log_load_ratio
+    if known is not None:
+        response = known.response
+        response_at = known.log_load_ratio
     for _ in range(BALANCE_ROUNDS):
         point, root = _root_on_accurate_contact(point, near)
         trial: Trial | None = root.payload
@@ -232,6 +238,19 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         point = replace(point, settings=settings)
         near = RootStart(log_load_ratio=root.x, slope=balance.slope, last=trial, value=value)
     return converged or balance
+
+
+def response_of(point: Point, balance: Balance) -> Response:
+    """Return the response of film and contact of ``balance`` to the load, with the friction that they have at ``point``."""
+    assert balance.film is not None
+    trial = Trial(
+        film=balance.film,
+        contact_state=balance.contact_state,
+        film_load=balance.film_load,
+        contact_load=balance.contact_load,
+        last_touching=balance.contact_state,
+    )
+    return _response(point, trial)
 
 
 def _response(point: Point, trial: Trial) -> Response:

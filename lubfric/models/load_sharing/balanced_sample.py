@@ -12,15 +12,17 @@ from scipy import fft
 from ...contact import HalfSpaceContact, RoughContact, weighted_mean
 from ...errors import LubfricError, WorkLimitError
 from ...samples import Sample
-from ...scene import budget
+from ...scene import Scene, budget
 from ..contract import SampleSolution
 from ..shared import (
     FEW_CONTACTS,
     SAMPLING_MATTERS,
+    BalanceKey,
     Prepared,
     ReferenceKey,
     StandardError,
     add_errors,
+    cells_of_contact,
     contact_on_joined_strips,
     contact_on_piece,
     has_too_few_contacts,
@@ -28,7 +30,7 @@ from ..shared import (
     speed_of,
     strips_for_error,
 )
-from .balance import Balance, solve_balance
+from .balance import Balance, response_of, solve_balance
 from .cell_effect import CellEffect, effect_of_cells, lost_summits
 from .closure import open_gap, with_gap_of_closure
 from .forces import forces_of
@@ -56,6 +58,9 @@ CLEAR_OF_SUMMITS = 10.0
 
 # Distance in ln F_C from a reference point up to which its effect of the cells may serve.
 NEAR_LOAD = 0.25
+
+# Slide-roll ratio of the reference point [-], whatever that of the point is. Film and contact hardly depend on it.
+REFERENCE_RATIO = 0.1
 
 # Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells
 # serves [-].
@@ -99,7 +104,13 @@ class BalancedSample(SampleSolution):
         begin = _reference(prepared, speed, sample) if start is None else start.start
         is_correctable = not sample.cells.is_native
         raw_balance = solve_balance(
-            scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=is_correctable
+            scene,
+            speed,
+            rough_contact,
+            prepared.surface.sq,
+            begin,
+            is_correctable=is_correctable,
+            starts_at_other_ratio=start is None,
         )
         balanced = cls(
             prepared=prepared,
@@ -308,8 +319,8 @@ class BalancedSample(SampleSolution):
 
 def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | None:
     """Return a balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given
-    film arrives, at any speed, and where no contact is expected). It depends on scene and cells alone, so that no
-    result depends on which speeds were solved before."""
+    film arrives, at any speed, and where no contact is expected), at `REFERENCE_RATIO`. It depends on scene and cells
+    alone, so that no result depends on which speeds were solved before; the points of a traction curve share it."""
     scene = prepared.scene
     sq = prepared.surface.sq
     if speed == 0 or not sample.represents_more or sq == 0 or scene.lubricant.inlet_film is not None:
@@ -318,18 +329,27 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     if nearest is None:
         return None
 
+    typical = _at_reference_ratio(scene)
+    rough_contact = contact_on_joined_strips(prepared, sample, sample.first_strips)
+
     def make() -> Balance | None:
-        there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
+        there = speed_of(typical, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, contact_on_joined_strips(prepared, sample, sample.first_strips), sq)
+            return solve_balance(typical, there, rough_contact, sq)
         except WorkLimitError:  # not of that speed: a point with more work left solves it
             raise
         except LubfricError:
             return None
 
-    key = ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0)
-    balance = remembered(prepared, sample, key, make)
+    key = BalanceKey(scene=typical, coarsening=sample.cells.coarsening, at=nearest, is_forward=speed > 0)
+    balance = remembered(prepared, sample, key, make, lambda balance: cells_of_contact(rough_contact))
     return balance if balance is not None and balance.response is not None else None
+
+
+def _at_reference_ratio(scene: Scene) -> Scene:
+    """Return ``scene`` without what a balance to start from need not know: its sliding and its speeds."""
+    motion = replace(scene.motion, entrainment_speed=1.0, slide_roll_ratio=REFERENCE_RATIO, speeds=())
+    return replace(scene, motion=motion, transient=None)
 
 
 def nearest_reference(film: float) -> float | None:
@@ -350,7 +370,8 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) 
         there = replace(point, speed=reference.film.entrainment_speed, settings=reference.settings)
 
         def make() -> CellEffect:
-            return effect_of_cells(prepared, there, reference, sample)
+            at_ratio = replace(reference, response=response_of(there, reference))
+            return effect_of_cells(prepared, there, at_ratio, sample)
 
         key = ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0)
         effect = remembered(prepared, sample, key, make)

@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from ..._base import count_work, with_its_work, work_left
 from ...contact import ContactResult, HalfSpace, HalfSpaceContact, RoughContact
+from ...scene import Scene
 from ...surface import Surface
 
 T = TypeVar("T")
@@ -88,13 +89,23 @@ class DryContactKey(Key[ContactResult]):
     tolerance: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class BalanceKey(Key[Any]):
+    """A balance of a ``scene`` at a fixed slide-roll ratio, from which those at other speeds and ratios start, on cells of this
+    ``coarsening``; ``at``: the expected film [Sq] of its fixed speed; ``is_forward``: whether that is positive."""
+
+    scene: Scene
+    coarsening: tuple[int, int]
+    at: float
+    is_forward: bool
+
+
 @dataclass(frozen=True)
 class ReferenceKey(Key[Any]):
     """A solution at a fixed speed, from which others start or take a correction.
 
     ``is_forward``: whether that speed is positive; ``what`` is taken from it, and ``at`` tells it apart from others of that kind:
 
-    - "balance": ``at`` is the expected film [Sq] of the fixed speed;
     - "effect of cells": that speed [m/s];
     - "change by shorter cells": the number of its step in ln of the expected film;
     - "attenuated summits": 0, as these depend on no speed.
@@ -121,6 +132,7 @@ class Memo:
 
     def __init__(self) -> None:
         self._kept: dict[Key[Any], MemoEntry] = {}
+        self._of_surface: Memo | None = None
 
     def __reduce__(self) -> tuple[type[Memo], tuple[()]]:
         return Memo, ()
@@ -131,6 +143,8 @@ class Memo:
         Its work is counted at each use. Where the caller has less left, it is made again, so that the limit ends it at the
         same step (`WorkLimitError`), which is not remembered.
         """
+        if key.is_of_surface_alone and self._of_surface is not None:
+            return self._of_surface.get(key, make, cells)
         entry = self._kept.get(key)
         if entry is not None and entry.work <= work_left():
             count_work(entry.work)
@@ -143,11 +157,15 @@ class Memo:
 
     def put(self, key: Key[T], value: T, cells: int = 0, work: float = 0.0) -> None:
         """Keep ``value``, which has so many ``cells`` and took so much counted ``work`` [s]."""
+        if key.is_of_surface_alone and self._of_surface is not None:
+            self._of_surface.put(key, value, cells, work)
+            return
         self._kept[key] = MemoEntry(value=value, cells=cells, work=work)
         entries = list(self._kept.items())
         while len(entries) > MOST_ENTRIES or sum(entry.cells for _, entry in entries[:-1]) > MOST_MEMO_CELLS:
             self._kept.pop(entries.pop(0)[0], None)
 
-    def keep_surface_of(self, other: Memo) -> None:
-        """Take over from ``other`` what depends on the surface and the elastic bodies alone."""
-        self._kept.update((key, entry) for key, entry in other._kept.items() if key.is_of_surface_alone)
+    def share_surface_of(self, other: Memo) -> None:
+        """Share with ``other``, and with all that share with it, what depends on the surface and the elastic bodies alone, or
+        has all else in its key."""
+        self._of_surface = other if other._of_surface is None else other._of_surface
