@@ -15,6 +15,7 @@ from ..quantities import NUMBERS
 from ..samples import is_measured, whole_maps
 from ..scene import Scene
 from .choose import chosen, each_once, first_speeds
+from .operating_points import INTERVAL_COLUMNS
 from .store import OUTCOME, Store, digest, fingerprint_without_files, is_shared, point_key
 
 Outcome = FrictionResult | LubfricError
@@ -148,6 +149,6 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
     errors = {name: value for name, value in vars(outcome.uncertainty).items() if name not in NUMBERS}  # f is not one
     numbers |= {f"uncertainty_{name}": value for name, value in errors.items() if isinstance(value, float)}
-    numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
-    numbers |= zip(("power_loss_low", "power_loss_high"), outcome.power_loss_interval)
+    numbers |= zip(INTERVAL_COLUMNS["coefficient"], outcome.uncertainty.interval)
+    numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
