@@ -98,9 +98,9 @@ def expected_violations(scene: Scene, sample: Sample, surface: Surface, speeds: 
         speeds_of.setdefault(model.name, (model, []))[1].append(speed)
     known = {violation.assumption for _, violation in expected}
     more: list[tuple[float | None, Violation]] = []
-    for name, (model, at) in speeds_of.items():
+    for name, (model, its_speeds) in speeds_of.items():
         if name != first.name:
-            more += [pair for pair in model.expected_violations(scene, at) if pair[1].assumption not in known]
+            more += [pair for pair in model.expected_violations(scene, its_speeds) if pair[1].assumption not in known]
     return (*expected, *more)
 
 

@@ -167,8 +167,8 @@ def heated_film(
     with the report.
     """
     nodes = _nodes(x.size)
-    at, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))
-    matrix = flash_matrix(at, around.carried)
+    places, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))
+    matrix = flash_matrix(places, around.carried)
     speed = abs(around.sliding)
 
     def heat(wall: FloatArray) -> FloatArray:
@@ -177,14 +177,14 @@ def heated_film(
     def mismatch(rise: FloatArray, made: FloatArray) -> FloatArray:
         return matrix @ made - rise
 
-    rise = np.zeros(at.size)
-    made = heat(np.full(at.size, lubricant.temperature))
+    rise = np.zeros(places.size)
+    made = heat(np.full(places.size, lubricant.temperature))
     defect = mismatch(rise, made)
     history = []
     for _ in range(TEMPERATURE_ITERATIONS):
         wall = lubricant.temperature + rise
         slope = (heat(wall + DIFFERENCE_STEP) - made) / DIFFERENCE_STEP
-        step = solve_triangular(np.eye(at.size) - matrix * slope, defect, lower=True)
+        step = solve_triangular(np.eye(places.size) - matrix * slope, defect, lower=True)
         share = 1.0
         while True:
             new = np.maximum(rise + share * step, 0.0)
@@ -207,7 +207,7 @@ def heated_film(
         tolerance=TEMPERATURE_TOLERANCE,
         history=tuple(history),
     )
-    wall = np.interp(x, at, lubricant.temperature + rise)
+    wall = np.interp(x, places, lubricant.temperature + rise)
     stress, film_rise = heated_stress(lubricant, pressure, film, around.sliding, wall)
     return returned(FilmHeat(stress, wall, film_rise, report), raise_on_failure=raise_on_failure)
 

@@ -55,7 +55,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         table = scene.bodies.boundary_friction_table
         if table is not None and key == BOUNDARY_FRICTION_KEY:
             unit = FRICTION_OVER[table.over]
-            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
+            points = (f"{value:.4g} at {worded(place, unit)}" for place, value in zip(table.at, table.values))
             note = f", by a table over {table.over}: {', '.join(points)}"
         yield quantity.label, text, key, note
 

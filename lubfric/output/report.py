@@ -194,11 +194,11 @@ def curve_status(curve: CurveResult) -> str:
 def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
     """Return how many of ``total`` solved points miss the requested tolerance, and how many have no interval, in
     sentences."""
-    at = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
+    places = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
     words = "the numerical error of f is above the requested tolerance" + ("." if unknown else ", and in its interval.")
-    sentences = [f"{at[0]} {words}"] if inexact > 0 else []
+    sentences = [f"{places[0]} {words}"] if inexact > 0 else []
     if unknown > 0:
-        sentences.append(f"{at[1]} the interval of f is not known.")
+        sentences.append(f"{places[1]} the interval of f is not known.")
     return sentences
 
 
@@ -377,10 +377,10 @@ def _operating_table(curve: CurveResult) -> str:
     heads.append("asperity load ratio F_C/F_T")
     rows = []
     for index, point in enumerate(curve.points):
-        at = f"{shown[swept][index]:.4g}"
+        place = f"{shown[swept][index]:.4g}"
         if point is None:
             why = escape(str(curve.errors[index]))
-            rows.append(f'{_cells([at])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
+            rows.append(f'{_cells([place])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
             continue
         low, high = point.uncertainty.interval
         f = with_interval(point.coefficient, low, high).partition(" (")[0]
@@ -391,7 +391,7 @@ def _operating_table(curve: CurveResult) -> str:
         numbers[OF_POINT.index("power_loss")] = with_interval(
             float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
         )
-        rows.append(_cells([at, f, interval, *numbers, f"{ratio:.3g}"]))
+        rows.append(_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
     return f"<h2>Operating points</h2>{table(heads, rows)}"
 
 

@@ -437,11 +437,11 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     lines = []
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
-        at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
+        place, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
-        lines.append(f"uncertainty of f {at_value(at, unit, plural)}{more}: {'; '.join(worst.notes)}")
-        if few and few != [at]:
+        lines.append(f"uncertainty of f {at_value(place, unit, plural)}{more}: {'; '.join(worst.notes)}")
+        if few and few != [place]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
             lines.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):

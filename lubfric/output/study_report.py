@@ -312,11 +312,11 @@ def _effects_at_largest(result: StudyResult) -> str:
         return ""
     i = int(np.nanargmax(f))
     scene = _scene_of_each(result)[i]
-    at = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
+    numbers = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
     ratio = float(columns["film_to_roughness_ratio"][i])
-    sq = at["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
-    known = at["boundary_force"] / scene.bodies.load, float(f[i])
-    effects = unmodelled_effects(scene, sq, at["speed"], known, includes_motion=may_move_roughness(scene))
+    sq = numbers["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
+    known = numbers["boundary_force"] / scene.bodies.load, float(f[i])
+    effects = unmodelled_effects(scene, sq, numbers["speed"], known, includes_motion=may_move_roughness(scene))
     return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {i + 1}, of the largest f')}"
 
 

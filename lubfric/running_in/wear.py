@@ -430,7 +430,7 @@ def _lift_off(rig: _WearRig, state: _WearStep) -> tuple[float, tuple[float, floa
 
 def _load_ratio_exponent(solved: dict[float, _WearStep], root: float) -> float:
     """Return -d ln(F_C/F_T)/d ln U between the two solved speeds next to ``root``; 0 if there are none with load."""
-    loaded = [(at, step.ratio) for at, step in solved.items() if step.ratio > 0]
+    loaded = [(log_speed, step.ratio) for log_speed, step in solved.items() if step.ratio > 0]
     (first, *others) = sorted(loaded, key=lambda point: abs(point[0] - root))
     apart = [point for point in others if abs(point[0] - first[0]) > SPEED_TOLERANCE]
     return abs(math.log(apart[0][1] / first[1]) / (apart[0][0] - first[0])) if apart else 0.0

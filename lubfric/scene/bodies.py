@@ -143,12 +143,12 @@ class Bodies(Shown):
         table = self.boundary_friction_table
         if table is None:
             return self.boundary_friction_coefficient
-        at = abs(sliding) if table.over == "sliding_speed" else temperature
-        if at is None:
+        place = abs(sliding) if table.over == "sliding_speed" else temperature
+        if place is None:
             raise InputError(
                 " is a table over the temperature", BOUNDARY_FRICTION_KEY, recommendation="give lubricant.temperature"
             )
-        return table(at)
+        return table(place)
 
     @property
     def effusivity(self) -> tuple[float, float]:

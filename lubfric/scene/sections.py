@@ -53,7 +53,7 @@ def keys_elsewhere(section: str = "") -> dict[str, str]:
         if other not in (section, "counterface"):  # whose keys are those of [surface]
             for key in _keys_of(other):
                 places.setdefault(key, []).append(f"[{other}]")
-    return {key: f"{key!r} in {' or '.join(at)}" for key, at in places.items()}
+    return {key: f"{key!r} in {' or '.join(sections)}" for key, sections in places.items()}
 
 
 def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:

@@ -144,9 +144,9 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     samples = curve.samples
     knee = curve.lift_off
     speeds = samples.speed
-    at = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
+    grid = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
     taken = np.append(speeds, np.array([*tried], dtype=float))
-    error = np.where(_free(at, taken), curve.error(at), 0.0)
+    error = np.where(_free(grid, taken), curve.error(grid), 0.0)
     largest = float(error.max())
     wanting = []
     films = speeds[samples.contacts :]
@@ -163,7 +163,7 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
             return wanted, largest
     if largest <= (tolerance if speeds.size >= MANY_SPEEDS else ESTIMATE_SHARE * tolerance):
         return None, largest
-    return float(at[error.argmax()]), largest
+    return float(grid[error.argmax()]), largest
 
 
 def between(curve: Interpolant) -> float:
@@ -200,8 +200,8 @@ def _speeds_at(scene: Scene, sq: float, ratios: Sequence[float], count: int) -> 
         speeds += [_speed_of(scene, sq, ratio, low, high) for ratio in ratios if least < ratio < most]
     while len(speeds) < count:
         speeds.sort()
-        _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(speeds, speeds[1:])))
-        speeds.append(math.sqrt(speeds[at] * speeds[at + 1]))
+        _, widest = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(speeds, speeds[1:])))
+        speeds.append(math.sqrt(speeds[widest] * speeds[widest + 1]))
     return tuple(sorted(speeds, reverse=True))
 
 

@@ -35,8 +35,10 @@ LISTED = 4
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
     """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
     factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
-    at = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
-    points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
+    solved_speeds = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
+    points = [
+        estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in solved_speeds
+    ]
     known = {part.what for point in points for part in point.shared if part.is_of_surface_alone and not has_new_map}
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
 
@@ -118,8 +120,8 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its unusual
     values."""
     scene = prepared.scene
-    at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
-    expected = expected_violations(scene, prepared.sample, prepared.surface, at)
+    solved_speeds = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
+    expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds)
     known = (*prepared.violations, *(violation for _, violation in expected))
     return tuple(violation for violation in known if violation.assumption != Assumption.USUAL_VALUES)
 

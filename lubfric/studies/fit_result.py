@@ -232,11 +232,11 @@ class FitResult(Renamed, Shown):
         minima = self._other_candidates
         for candidate in minima[:MOST_NAMED_MINIMA]:
             values = values_at(self.parameters, candidate.unit)
-            at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
+            place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             times = f"{candidate.misfit / self.minima[0].misfit:.2g}"
             large = "as large as" if times == "1" else f"{times} times as large as"
             lines.append(
-                f"the search, by the load-sharing model, has another minimum at {at}, with residuals {large} at the "
+                f"the search, by the load-sharing model, has another minimum at {place}, with residuals {large} at the "
                 "lowest; the intervals do not include it"
             )
         if len(minima) > MOST_NAMED_MINIMA:

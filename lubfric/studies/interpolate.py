@@ -200,16 +200,16 @@ class Interpolant:
         speed = np.asarray(speed, dtype=float)
         value = self.at(speed)
         right = np.clip(np.searchsorted(self.samples.speed, speed), 1, self.samples.speed.size - 1)
-        low, high, at = (np.log(u) for u in (self.samples.speed[right - 1], self.samples.speed[right], speed))
+        low, high, log_speed = (np.log(u) for u in (self.samples.speed[right - 1], self.samples.speed[right], speed))
         far = _ramp(high - low, NEAR_SPEEDS, FAR_SPEEDS)
         straight = _ramp(high - low, STRAIGHT_FROM, FAR_SPEEDS)
-        monotone, line = self._through_f(at)
+        monotone, line = self._through_f(log_speed)
         spread = np.maximum(far * _distance(monotone, value), straight * _distance(line, value))
         spread = np.maximum(spread, _distance(self.at(speed, smooth=False), value))
         for other in self._other_ends:
             spread = np.maximum(spread, _distance(other.at(speed), value))
         change_without = self._changes_without_points
-        place = np.clip((at - low) / (high - low), 0.0, 1.0)
+        place = np.clip((log_speed - low) / (high - low), 0.0, 1.0)
         between = 2.0 * np.sqrt(place * (1.0 - place))  # an error that is none at the points
         factor = BETWEEN_NEAR_POINTS + far * (BETWEEN_FAR_POINTS - BETWEEN_NEAR_POINTS)
         beside = factor * between * np.maximum(change_without[right - 1], change_without[right])
@@ -299,7 +299,7 @@ class Interpolant:
         if known.size == 0:
             return np.full(speed.shape, float(s.contacts > 0))
         log_load_ratio = np.log(1 / s.share[known] - 1)
-        at = np.zeros(speed.shape)
+        load_ratio = np.zeros(speed.shape)
         end = self.lift_off
         if end is None:
             return _share_of(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth))
@@ -314,8 +314,8 @@ class Interpolant:
             there**LOAD_RATIO_POWER,
             smooth=smooth,
         )
-        at[below] = _share_of(left, there / (1 - there) ** self.end)
-        return at
+        load_ratio[below] = _share_of(left, there / (1 - there) ** self.end)
+        return load_ratio
 
     def traction(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the traction coefficient of the film."""
@@ -327,14 +327,16 @@ class Interpolant:
         y = s.speed[known]
         t = s.film[known] / np.maximum(1 - s.share[known], NO_FILM_LOAD)
         touching = known < k
-        at = np.maximum(speed, y[0])
+        known_speed = np.maximum(speed, y[0])
         if k == 0:
-            return _film_alone(y, t, at, smooth=smooth)
+            return _film_alone(y, t, known_speed, smooth=smooth)
         if knee is None or np.count_nonzero(~touching) < 2:
-            return _of_logarithms(np.log(y), t, np.log(at), smooth=smooth)
-        alone = _film_alone(y[~touching], t[~touching], np.append(at, knee), smooth=smooth)
-        slow = _of_logarithms(np.append(y[touching], knee), np.append(t[touching], alone[-1]), at, smooth=False)
-        return np.where(at < knee, slow, alone[:-1])
+            return _of_logarithms(np.log(y), t, np.log(known_speed), smooth=smooth)
+        alone = _film_alone(y[~touching], t[~touching], np.append(known_speed, knee), smooth=smooth)
+        slow = _of_logarithms(
+            np.append(y[touching], knee), np.append(t[touching], alone[-1]), known_speed, smooth=False
+        )
+        return np.where(known_speed < knee, slow, alone[:-1])
 
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
@@ -349,19 +351,19 @@ def through(numbers: dict[str, np.ndarray]) -> Interpolant:
         raise InputError(
             f"{counted(good.size, 'speeds')} {'is' if good.size == 1 else 'are'} solved; a curve between them needs {FEWEST_SPEEDS} different ones"
         )
-    at = {name: values[good] for name, values in numbers.items()}
-    total = at["contact_load"] + at["film_load"]
-    boundary = at["boundary_force"] / total
+    solved = {name: values[good] for name, values in numbers.items()}
+    total = solved["contact_load"] + solved["film_load"]
+    boundary = solved["boundary_force"] / total
     samples = Samples(
-        speed=np.abs(at["speed"]),
-        share=at["contact_load"] / total,
+        speed=np.abs(solved["speed"]),
+        share=solved["contact_load"] / total,
         boundary=boundary,
-        film=at["coefficient"] - boundary,
-        thickness=at["film_to_roughness_ratio"],
-        clearance=at["clearance"],
-        steepness=at["steepness"],
+        film=solved["coefficient"] - boundary,
+        thickness=solved["film_to_roughness_ratio"],
+        clearance=solved["clearance"],
+        steepness=solved["steepness"],
     )
-    return Interpolant(samples, knee_of(samples), sense=float(np.sign(at["speed"][0])))
+    return Interpolant(samples, knee_of(samples), sense=float(np.sign(solved["speed"][0])))
 
 
 def knee_of(samples: Samples) -> float | None:

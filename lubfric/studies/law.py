@@ -220,7 +220,7 @@ def law_of(
     numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
     numbers |= _viscosity(T, eta, slope)
     sliding = scene.motion.slide_roll_ratio * U
-    at_rest = max(scene.bodies.boundary_friction(*at) for at in zip(sliding.tolist(), T.tolist()))
+    at_rest = max(scene.bodies.boundary_friction(*place) for place in zip(sliding.tolist(), T.tolist()))
     numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, at_rest)
     deviations = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}

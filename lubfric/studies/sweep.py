@@ -65,12 +65,12 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     def parts_at(self, speed: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return the two parts of f, from the asperity contacts and from the film, at any speeds [m/s], as `at`."""
         curve = self._curve
-        at = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
-        if not curve.within(at).all():
+        speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
+        if not curve.within(speeds).all():
             low, high = curve.range
-            raise InputError(f"speed = {at} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
-        at = curve.sense * at
-        return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
+            raise InputError(f"speed = {speeds} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
+        speeds = curve.sense * speeds
+        return curve.boundary(speeds).reshape(np.shape(speed)), curve.film(speeds).reshape(np.shape(speed))
 
     @property
     def lift_off(self) -> float | None:

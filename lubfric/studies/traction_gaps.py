@@ -78,16 +78,16 @@ def gaps_of(ratio: Sequence[float] | FloatArray, coefficient: FloatArray, half_w
     slopes = np.diff(f) / np.where(np.diff(s) > 0, np.diff(s), np.nan)
     gaps = []
     for i in range(s.size - 1):
-        at = s[i] + PLACES * (s[i + 1] - s[i])
+        places = s[i] + PLACES * (s[i + 1] - s[i])
         after = slopes[i + 1] if i + 2 < s.size else 0.0
-        above = f[i + 1] - after * (s[i + 1] - at)
+        above = f[i + 1] - after * (s[i + 1] - places)
         if i > 0:
-            above = np.minimum(above, f[i] + slopes[i - 1] * (at - s[i]))
-        share = PLACES if s[i] == 0.0 else np.log(at / s[i]) / np.log(s[i + 1] / s[i])
+            above = np.minimum(above, f[i] + slopes[i - 1] * (places - s[i]))
+        share = PLACES if s[i] == 0.0 else np.log(places / s[i]) / np.log(s[i + 1] / s[i])
         drawn = f[i] + share * (f[i + 1] - f[i])
         excess = 0.5 * (above - drawn) - (width[i] + share * (width[i + 1] - width[i]))
         if np.isfinite(excess).all() and excess.max() > 0.0:
             worst = int(np.argmax(excess))
             change = float(above[worst] - drawn[worst])
-            gaps.append(Gap(low=float(s[i]), high=float(s[i + 1]), at=float(at[worst]), change=change))
+            gaps.append(Gap(low=float(s[i]), high=float(s[i + 1]), at=float(places[worst]), change=change))
     return gaps

@@ -149,7 +149,7 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
         return deviations
     far = np.abs(heights - middle) > OUTLIER_LIMIT * deviation
     where = np.nonzero(far if mask is None else far & mask)
-    parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
+    parts = [tuple(indices[i : i + CHUNK] for indices in where) for i in range(0, where[0].size, CHUNK)]
     padded = heights
     for axis, is_periodic in enumerate(periodic):  # wrapped where periodic, mirrored at open ends
         width = [(WINDOW // 2, WINDOW // 2) if axis == other else (0, 0) for other in range(2)]

@@ -143,7 +143,9 @@ class TransientDeterministic:
         along = (transient.speed or Constant(motion.entrainment_speed)).integral(time)
         apart = motion.slide_roll_ratio * along if transient.sliding is None else transient.sliding.integral(time)
         back = -1 if speed < 0 else 1
-        rough = {name: at(along + SLIDING_PART[name] * apart)[::back] for name, at in self.heights.items()}
+        rough = {
+            name: heights_at(along + SLIDING_PART[name] * apart)[::back] for name, heights_at in self.heights.items()
+        }
         pace = max(abs(speed), REST * self.base.speed)
         return replace(
             self.base,
@@ -328,11 +330,11 @@ def deterministic_moment(
 ) -> tuple[dict[str, float], tuple[Violation, ...]]:
     """Return the numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of
     the rough gap; NaN where this model has no such number."""
-    at = now.solution.terms
+    iterate = now.solution.terms
     scene = scene_at(solver.scene, now.time)
-    left = residuals(at)
+    left = residuals(iterate)
     result = assemble(
-        at,
+        iterate,
         Report(
             "film under moving roughness",
             CONVERGED,
