@@ -2,8 +2,9 @@
 scene."""
 
 import time
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from numbers import Real
 from pathlib import Path
@@ -11,7 +12,7 @@ from textwrap import shorten
 from typing import Any
 
 from ..errors import InputError
-from ..estimate import estimated_work_of_point, expected_violations, seconds_of_points
+from ..estimate import PointWorkEstimate, estimated_work_of_point, expected_violations, seconds_of_points
 from ..models import prepare
 from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
@@ -35,12 +36,15 @@ LISTED = 4
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
     """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
     factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
-    solved_speeds = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
-    points = [
-        estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in solved_speeds
-    ]
+    points = _estimated_points(prepared, speeds)
     known = {part.what for point in points for part in point.shared if part.is_of_surface_alone and not has_new_map}
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
+
+
+def _estimated_points(prepared: Prepared, speeds: Sequence[float]) -> list[PointWorkEstimate]:
+    """Return what the points of a scene at ``speeds`` [m/s] (none: at those that it chooses) will take."""
+    at = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
+    return [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
 
 
 def estimated_study(plan: Any, store: str | Path | None = None) -> float:
@@ -48,7 +52,7 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
     of the maps are made."""
     table = StudyTable(plan)
     table.read(Store(store))
-    return _seconds_left(plan, table)[0]
+    return _left(plan, table).seconds
 
 
 def warnings_of(plan: Any) -> list[str]:
@@ -94,12 +98,30 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
     return lines
 
 
-def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[str]]:
-    """Return the estimated seconds of what is left of a study, from some of its scenes; why some cannot be solved; and
-    what is expected not to hold there, but the unusual values (`warnings_of`), in sentences."""
+@dataclass(frozen=True, kw_only=True)
+class Left:
+    """What is left of a study, from some of its scenes.
+
+    Attributes
+    ----------
+    seconds : estimated processor time [s]
+    models : number of the points of these scenes that each model is expected to answer, by its name
+    failed : why some cannot be solved, in lines
+    warnings : what is expected not to hold, but the unusual values (`warnings_of`), in sentences
+    """
+
+    seconds: float
+    models: Counter[str]
+    failed: list[str]
+    warnings: list[str]
+
+
+def _left(plan: Any, table: StudyTable) -> Left:
+    """Return what is left of a study."""
     left = [(plan.scenes[curve], speeds) for curve, _, speeds in table.left()]
     some = left[:: -(-len(left) // SAMPLED)] if left else []
     seconds = 0.0
+    models: Counter[str] = Counter()
     failed = []
     violations: list[tuple[Violation, ...]] = []
     for scene, speeds in some:
@@ -108,12 +130,13 @@ def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[
             prepared = prepare(scene)
             one = curve_seconds(prepared, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
+            models.update(point.model.name for point in _estimated_points(prepared, speeds))
             violations.append(_of_given_sliding(plan, _expected(prepared, speeds)))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)
     checked = "scenes" if len(violations) == all_scenes else f"scenes checked (of {all_scenes})"
-    return seconds, failed, _in_sentences(violations, checked)
+    return Left(seconds=seconds, models=models, failed=failed, warnings=_in_sentences(violations, checked))
 
 
 def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:
@@ -168,10 +191,17 @@ def explain(plan: Any, store: Path | None = None) -> str:
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"])
-    seconds, failed, expected_warnings = _seconds_left(plan, table)
-    lines += [f"  {text}" for text in (*warnings_of(plan), *expected_warnings)]
-    lines.append(f"  time     about {in_words(seconds)} on one core ({WITHIN_WORDS})")
-    return "\n".join([*lines, *dict.fromkeys(failed)])
+    left = _left(plan, table)
+    lines += [f"  {text}" for text in (*warnings_of(plan), *left.warnings)]
+    if left.models:
+        checked = left.models.total()
+        answers = (
+            name if count == checked else f"{name} at {count} of {checked} points checked"
+            for name, count in left.models.most_common()
+        )
+        lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")
+    lines.append(f"  time     about {in_words(left.seconds)} on one core ({WITHIN_WORDS})")
+    return "\n".join([*lines, *dict.fromkeys(left.failed)])
 
 
 def _range(key: str, values: tuple[Any, ...]) -> str:

@@ -381,3 +381,13 @@ def test_records_of_another_scene_are_named(tmp_path):
     assert "of other scenes" not in same_plan.explain(tmp_path)
     other = lubfric.plan_study(SCENE.with_(bodies={"width": 0.02}), {"bodies.load": [1.0, 2.0]}, [0.01, 0.02])
     assert f"4 points of other scenes, or of another version of lubfric, are in {tmp_path}" in other.explain(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "model, words", [("quick", "model    quick (numerics.model = 'quick')"), ("paper", "model    paper (numerics")]
+)
+def test_the_plan_of_a_study_names_the_model_that_answers(model, words):
+    scene = SCENE.with_(numerics={"model": model})
+    assert words in lubfric.plan_study(scene, {"bodies.load": [3.0, 5.5]}, [0.01]).explain()
+    result = lubfric.friction(scene, 0.01)
+    assert result.decision.model == model
