@@ -99,6 +99,16 @@ def test_a_packed_statement_is_seen(text, packed):
 
 
 @pytest.mark.parametrize("package", PACKAGES)
+def test_no_conditional_stands_in_another(package):
+    """a if b else c if d else e: statements say the same, one condition after the other."""
+    conditionals = [(path, node) for path, node in nodes(package) if isinstance(node, ast.IfExp)]
+    nested = [
+        f"{p}:{n.lineno}" for p, n in conditionals if isinstance(n.body, ast.IfExp) or isinstance(n.orelse, ast.IfExp)
+    ]
+    assert len(conditionals) > 100 and nested == []
+
+
+@pytest.mark.parametrize("package", PACKAGES)
 def test_no_two_classes_have_one_name(package):
     homes = defaultdict(set)
     for path, node in nodes(package):

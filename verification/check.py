@@ -138,7 +138,9 @@ class Check:
     @property
     def units(self) -> float:
         """Return the deviation in units of the tolerance; compared with a publication, in units of both errors."""
-        return self.deviation / self.tolerance if self.tolerance else (math.inf if self.deviation else 0.0)
+        if self.tolerance:
+            return self.deviation / self.tolerance
+        return math.inf if self.deviation else 0.0
 
     @property
     def deviates_as_listed(self) -> bool:

@@ -199,7 +199,9 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     if words:
         print(words)
     print(f"report: {out / 'report.html'}")
-    return 130 if interrupted else 0 if result.passed else 1
+    if interrupted:
+        return 130
+    return 0 if result.passed else 1
 
 
 def environment() -> dict[str, str]:
@@ -238,5 +240,7 @@ def tell_study(study: Study, names: tuple[str, ...]) -> None:
 
 def tell_check(check: Check) -> None:
     """Say on stderr how a check ended, as it comes in."""
-    word = "FAIL" if check.failed else "list" if check.deviates_as_listed else "ok  "
+    word = "list" if check.deviates_as_listed else "ok  "
+    if check.failed:
+        word = "FAIL"
     print(f"    {word} {check.name}", file=sys.stderr, flush=True)

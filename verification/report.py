@@ -56,7 +56,9 @@ class Report:
         decisive = [c for c in self.checks if c.decisive]
         failed = sum(c.failed for c in decisive)
         deviating = sum(c.deviates_as_listed for c in decisive)
-        word = "PASSED" if self.passed else "FAILED" if failed or self.complete else "UNFINISHED"
+        word = "FAILED" if failed or self.complete else "UNFINISHED"
+        if self.passed:
+            word = "PASSED"
         text = f"{word}: {len(decisive) - failed - deviating} of {len(decisive)} checks passed"
         if deviating:
             text += f", {failed} failed, {deviating} listed deviation{'s' if deviating > 1 else ''}"

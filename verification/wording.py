@@ -77,7 +77,9 @@ def number(value: float) -> str:
 
 def seconds(value: float | None) -> str:
     """Return a time for a person."""
-    return "" if value is None else f"{value:.2f} s" if value < 100 else f"{value / 60:.1f} min"
+    if value is None:
+        return ""
+    return f"{value:.2f} s" if value < 100 else f"{value / 60:.1f} min"
 
 
 def markdown(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:

@@ -41,8 +41,8 @@ def test_titles_of_the_surface_are_complete(tmp_path, monkeypatch, shape):
 def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():
     x = np.linspace(-50e-6, 50e-6, 8)
     numbers = {"speed": 0.0123456, "contact_load": 381.0, "film_load": 419.0}
-    numbers |= {"deterministic": None, "_field": {"half_width": 30e-6}.get}
-    point = SimpleNamespace(x=x, y=x, pressure=np.ones((8, 8)), **numbers)
+    fields = SimpleNamespace(x=x, y=x, pressure=np.ones((8, 8)), half_width=30e-6, pressure_label="contact pressure")
+    point = SimpleNamespace(_fields_with=lambda name: fields, **numbers)
     figure = Figure(figsize=(85 / 25.4, 70 / 25.4))
     axes = FrictionResult.plot_contact(point, figure.subplots())
     assert axes.title.get_text() not in cut_texts(figure) and "0.476" in axes.title.get_text()

@@ -145,8 +145,9 @@ def source_around(text: str, line: int) -> str:
     nodes = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.stmt)]
     around = [node for node in nodes if node.lineno <= line <= (node.end_lineno or node.lineno)]
     functions = [node for node in around if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
-    chosen = functions[-1] if functions else around[0] if around else None
-    return text if chosen is None else structure(chosen)
+    if functions:
+        return structure(functions[-1])
+    return structure(around[0]) if around else text
 
 
 def structure(part: ast.AST) -> str:

@@ -28,7 +28,9 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         for method in dict.fromkeys(p.at["method"] for p in chosen):
             curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
-        ylabel = "error of f" if name in OF_FRICTION else "error" if apart else "solver error"
+        ylabel = "error" if apart else "solver error"
+        if name in OF_FRICTION:
+            ylabel = "error of f"
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
         ax.set_title(label, fontsize=9)
     handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]

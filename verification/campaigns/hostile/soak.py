@@ -118,7 +118,10 @@ def _features(prepared: Prepared, result: lubfric.FrictionResult) -> Iterator[st
     share = result.contact_load / prepared.scene.bodies.load
     yield scene.contact.geometry
     yield "asperities" if scene.contact.model != "half-space" else "height map"
-    yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
+    if share == 0:
+        yield "separated"
+    else:
+        yield "contact below 1 %" if share < 0.01 else "contact above 1 %"
     features = {
         "strips": prepared.sample.represents_more,
         "plastic limit": scene.bodies.hardness,

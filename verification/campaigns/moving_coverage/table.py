@@ -350,7 +350,10 @@ def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
     for answer in judged_answers(folder):
         name = answer.contact.name
         if name.startswith(RANDOM):
-            name = f"random, {'slide-roll 1 to 2' if answer.is_fast else 'heavy' if answer.contact.heavy else 'light'}"
+            kind = "heavy" if answer.contact.heavy else "light"
+            if answer.is_fast:
+                kind = "slide-roll 1 to 2"
+            name = f"random, {kind}"
         groups.setdefault(name, []).append(answer)
     for name, answers in groups.items():
         yield {"contact": name, "heavy": answers[0].contact.heavy} | summary(answers)

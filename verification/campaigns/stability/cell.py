@@ -43,7 +43,9 @@ class Cell(Generic[Problem]):
 
 def verdict(check: Check) -> str:
     """Return one of `VERDICTS`."""
-    return RIGHT if check.passed else FAILED if check.refused else WRONG
+    if check.passed:
+        return RIGHT
+    return FAILED if check.refused else WRONG
 
 
 def check_cell(

@@ -269,7 +269,10 @@ def finish(problem: ContactProblem, force: FloatArray, steps: tuple[int, list[fl
         residuals=residuals,
         history=tuple(history),
     )
-    status = CONVERGED if report.residual <= problem.tolerance else STAGNATED if status == CONVERGED else status
+    if report.residual <= problem.tolerance:
+        status = CONVERGED
+    elif status == CONVERGED:
+        status = STAGNATED
     report = replace(report, status=status)
     return Contact(
         pressure=force / problem.weights,
