@@ -50,6 +50,9 @@ MOST_PERIODS = 100.0
 # Steps at the start of a run, and after each jump.
 STEPS_OF_START = 30.0
 
+# Steps after each corner of a table, beside those of its change: 5, 5 and 6 for a wave through 11, 31 and 121 rows.
+STEPS_OF_CORNER = 5.0
+
 # Processor seconds of the film in a step: 3 to 6 ms in 15 random runs of `python -m verification.campaigns.estimates`.
 FILM_STEP_SECONDS = 4e-3
 
@@ -101,7 +104,10 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     tolerance = transient.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     times, changed, carried = changes(scene, surface.sq)
     jumps = sorted({time for history in transient.histories for time in history.jumps(transient.duration)})
+    stops = {time for history in transient.histories for time in history.stops(transient.duration)}
+    corners = sorted(stops.difference(jumps))
     begun = STEPS_OF_START * carried.mean() * (1.0 + np.searchsorted(jumps, times))
+    begun += STEPS_OF_CORNER * carried.mean() * np.searchsorted(corners, times)
     changing = STEPS_OF_CHANGE * (STEP_TOLERANCE / tolerance) ** (1 / 3) * changed + begun
     steps_until = np.maximum(transient.outputs * times / transient.duration, changing)
     steps = float(steps_until[-1])

@@ -9,6 +9,8 @@ from lubfric.output import estimate_scene
 from lubfric.scene import Harmonic, Table, Transient
 
 PATCH = paper_scene(numerics={"sampling": "patch"})
+TIMES = np.linspace(0.0, 1.0, 61)
+SAMPLED_WAVE = Table(times=tuple(TIMES), values=tuple(0.3 + 0.2 * np.sin(2 * np.pi * TIMES)))  # corners take steps, too
 
 
 def estimated(plan, scene=PATCH):
@@ -47,6 +49,7 @@ def test_the_part_of_the_steps_follows_the_reversals():
     "plan",
     [
         Transient(0.02, outputs=4, speed=Harmonic(amplitude=0.03, frequency=50.0, phase=1.5)),
+        Transient(1.0, outputs=20, speed=SAMPLED_WAVE),
         pytest.param(
             Transient(0.01, outputs=4, load=Harmonic(mean=2.5, amplitude=2.0, frequency=200.0)), marks=pytest.mark.slow
         ),
