@@ -1,10 +1,10 @@
 """What every room uses: checks of input (`validate`), records, text tables, files, pictures (`figures`), a bracketed
 root."""
 
-from .arrays import BoolArray, ComplexArray, FloatArray, IntArray
+from .arrays import BoolArray, FloatArray, IntArray
 from .files import LOCK, FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
 from .host import with_default_errors
-from .memory import check_address_space, keep_freed_memory, release_freed_memory, releasing_memory, resident_memory
+from .memory import check_address_space, keep_freed_memory, releasing_memory, resident_memory
 from .records import FieldsOnly, FrozenArrays, Renamed, Shown, changed, share_read_only
 from .roots import Root, increasing_root
 from .tables import (

@@ -13,7 +13,7 @@ from .fit_result import FitResult, draw_fit, draw_residuals
 from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
-from .main_effects import MainEffect, main_effects
+from .main_effects import main_effects
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import UNUSED
@@ -21,7 +21,6 @@ from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
-    DRAWN_ERROR,
     check_tools,
     columns_of_study,
     friction_over_speed,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,10 +29,6 @@ from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, 
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
 from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
-
-if TYPE_CHECKING:
-    pass
-
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Points that a process of an executor receives at once.

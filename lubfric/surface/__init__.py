@@ -1,7 +1,6 @@
 """Height maps: read, prepared, generated, filtered and measured."""
 
 from .generate import ACFS, generate_surface, honing_of, surface_generator
-from .header import LENGTH_UNITS
 from .height_map import Surface
 from .honed import honed_sq
 from .prepare import FORM_POWERS, advised_form, outliers

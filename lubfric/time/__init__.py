@@ -7,7 +7,7 @@ from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import LineHistory, make_setting
 from .march import Memory, Progress, Step, advance, plan_of, report_of, steps
 from .model import Start, TimeModel
-from .registry import check_run, estimated_run, may_move_roughness, models_that_may_be_solved, run_model_of
+from .registry import check_run, estimated_run, may_move_roughness, run_model_of
 from .result import (
     PARTS_NOT_IN_TIME,
     TransientResult,

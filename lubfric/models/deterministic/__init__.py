@@ -2,11 +2,10 @@
 
 from .answer import answer_of
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
-from .counted_work import MOST_WORK_OF_POINT
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
 from .flow import derivatives, mass_balance
-from .heat_of_strip import strip_heat, why_too_hot
+from .heat_of_strip import strip_heat
 from .levels import Levels, levels_of, two_levels
 from .linear import System, gmres, nested_dissection
 from .moving import Moment, RoughBody, moments, travelling

@@ -9,7 +9,6 @@
 - `differences_of_strips` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
-from .answer import answer_of
 from .balance import Balance, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
@@ -18,6 +17,6 @@ from .estimated_work import expected_gap, expected_model_error
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
-from .response import MomentResponse, Response, Slopes, point_numbers, slopes_of
+from .response import MomentResponse, Response, Slopes, slopes_of
 from .scatter import effective_contacts, moment_error
 from .undetected import summit_radius, undetected_load

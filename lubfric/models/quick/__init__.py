@@ -15,7 +15,6 @@ from .long_cells import (
     long_cells_in_motion,
     long_cells_of,
     map_coarsening_at_rest,
-    map_coarsening_in_motion,
     numbers_for_features,
     on_cells_along_x,
     solve_at_rest,
