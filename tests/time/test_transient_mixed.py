@@ -49,6 +49,7 @@ def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
     forwards = lubfric.friction(rolling.with_(motion={"entrainment_speed": 0.02}))
     np.testing.assert_allclose(result.coefficient, lubfric.friction(mirrored).coefficient, rtol=5e-3)
     np.testing.assert_allclose(result.coefficient, forwards.coefficient, rtol=5e-3)
+    np.testing.assert_allclose(result.power_loss, forwards.power_loss, rtol=5e-3)
     assert "treated as stationary" in result.report.notes[-1]
     assert "treated as stationary" not in " ".join(run(Transient(0.1), [0.0, 0.1]).report.notes)
 
