@@ -12,6 +12,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.estimate.choice import choose
+from lubfric.estimate.solve_to_tolerance import solve_to_tolerance
 from lubfric.models import (
     MODELS,
     DeterministicModel,
@@ -278,6 +279,20 @@ def test_a_further_model_answers_through_the_same_contract():
         assert reasons["contact_load"] == "not known" and reasons["min_film"] == "not computed by the model"
         assert reasons["film_load"] == "it is 0, and so has no relative error" and "coefficient" in reasons
     assert len(values) > prepared.sample.first_strips
+
+
+@pytest.mark.parametrize("takes_cells", [True, False])
+def test_a_model_is_asked_for_shorter_cells_where_it_takes_those_of_the_sample(monkeypatch, takes_cells):
+    """Down to native ones, where its solutions require it; else on the first ones, whatever is shown."""
+    monkeypatch.setattr(HighestSummit, "takes_cells_of_sample", takes_cells, raising=False)
+    monkeypatch.setattr(Highest, "is_too_coarse", lambda self: True)
+    loose = lubfric.prepare(PAPER.with_(numerics={"sampling_tolerance": 0.5}))
+    solution = solve_to_tolerance(loose, 0.03, HighestSummit())
+    assert not loose.sample.cells.is_native
+    assert solution.sample.cells == (loose.sample.native().cells if takes_cells else loose.sample.cells)
+    patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}))
+    shown = solve_to_tolerance(patch, 0.03, HighestSummit(), for_fields=True)
+    assert shown.sample.cells.is_native is takes_cells
 
 
 @dataclass(frozen=True, kw_only=True)

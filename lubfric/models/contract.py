@@ -342,10 +342,11 @@ class Model(ABC):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> SampleSolution:
-        """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s]: those of the line, which a model may lay out on
-        cells of its own, and of which it may solve as many as its own error asks for.
+        """Solve the first ``count`` strips of the line at ``speed`` [m/s], of which a model may solve as many as its own error
+        asks for.
 
-        ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
+        ``sample``: that of ``prepared``, on the cells that are requested, for a model that takes them
+        (`takes_cells_of_sample`); ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
         `ConvergenceError`.
         """
 
@@ -387,6 +388,12 @@ class Model(ABC):
     def takes_wear(self) -> bool:
         """Whether a scene that names it may wear: the asperity pressure of wear is that of the load-sharing model."""
         return False
+
+    @property
+    def takes_cells_of_sample(self) -> bool:
+        """Whether `solve` takes the cells of its ``sample``, which are halved while they are too long
+        (`SampleSolution.is_too_coarse`); False: it lays out the strips of ``prepared.sample`` on cells of its own."""
+        return True
 
     def strips_to_begin_with(self, sample: Sample) -> int:
         """Return the number of strips that this model solves before its error says how many it needs: those on which a line is

@@ -73,6 +73,10 @@ class DeterministicModel(Model):
     def includes_motion(self) -> bool:
         return True
 
+    @property
+    def takes_cells_of_sample(self) -> bool:
+        return False  # its cells are those of `sample_coarsening_of`
+
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         target = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         elsewhere = (
@@ -121,11 +125,7 @@ class DeterministicModel(Model):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> DeterministicSolution:
-        """Solve the first ``count`` strips.
-
-        The strips are those of ``prepared.sample``, whatever cells ``sample`` has, because this model chooses its own
-        (`sample_coarsening_of`).
-        """
+        """Solve the first ``count`` strips of ``prepared.sample``, on cells of this model (`takes_cells_of_sample`)."""
         solved = start.pairs if isinstance(start, DeterministicSolution) else ()
         pairs = solve_pairs(prepared, speed, count, solved=solved)
         estimate, wanted = two_levels(prepared, pairs, control)
