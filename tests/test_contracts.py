@@ -286,6 +286,7 @@ def test_a_model_is_asked_for_shorter_cells_where_it_takes_those_of_the_sample(m
     """Down to native ones, where its solutions require it; else on the first ones, whatever is shown."""
     monkeypatch.setattr(HighestSummit, "takes_cells_of_sample", takes_cells, raising=False)
     monkeypatch.setattr(Highest, "is_too_coarse", lambda self: True)
+    monkeypatch.setattr(Highest, "sampling_error", StandardError(0.0, 3))
     loose = lubfric.prepare(PAPER.with_(numerics={"sampling_tolerance": 0.5}))
     solution = solve_to_tolerance(loose, 0.03, HighestSummit())
     assert not loose.sample.cells.is_native
