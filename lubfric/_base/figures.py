@@ -30,6 +30,7 @@ GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
 FRICTION_LABEL = axis_label("coefficient")
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
+KEY_LINE = 3.0  # letters: length of the lines in a key, such that dashes and dots differ
 LETTER = 3.8  # pt: width of a letter of that size, about
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
 GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be spaced by factors
@@ -199,7 +200,8 @@ def key_above(axes: Axes, columns: int = 3) -> int:
     while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
         rows += 1
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
-    axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=size, **place)
+    columns = -(-len(labels) // max(rows, 1)) or 1
+    axes.legend(ncols=columns, frameon=False, fontsize=size, handlelength=KEY_LINE, **place)
     return rows
 
 

@@ -35,6 +35,12 @@ MOST_PLOTTED_LINES = 500
 # Lines of a plot that get a label, at most.
 NAMED = 10
 
+# Values of the first number that is varied that are named with their colour, at most; more are read off a bar.
+NAMED_SHADES = 6
+
+# Part of the colours that are dark enough to be seen on white [-]: without yellow.
+DARK_SHADES = 0.85
+
 # Markers and dashes of the values of a second number that is varied, one pair for each; more values have none.
 STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
 
@@ -112,7 +118,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     were chosen, the lines are interpolated."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
+    from matplotlib.colors import ListedColormap, Normalize
 
     if result.paired:
         return plot_points(result, "coefficient", ax, **style)
@@ -121,8 +127,8 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     count = len(indices)
     indices = indices[:: -(-count // MOST_PLOTTED_LINES)]
     few = len(indices) <= NAMED
-    shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
-    colours = colormaps["viridis"]
+    shades: np.ndarray = np.linspace(0.0, 1.0, len(indices))
+    colours = ListedColormap(colormaps["viridis"](np.linspace(0.0, DARK_SHADES, 256)))
     keys = [k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f" and v.size > 1]
     key = next(iter(keys), None)
     styles: dict[float, Any] = {}
@@ -130,9 +136,16 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         styles = dict(zip(np.unique(result.coords[keys[1]][1]).tolist(), STYLES))
     if key is not None and not few:
         dim, values = result.coords[key]
+        distinct = np.unique(values)
+        is_named = distinct.size <= NAMED_SHADES
         scale = Normalize(values.min(), values.max())
-        shades = np.array([scale(values[index[result.dims.index(dim)]]) for index in indices])
-        axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
+        of_curves = values[[index[result.dims.index(dim)] for index in indices]]
+        shades = np.searchsorted(distinct, of_curves) / (distinct.size - 1) if is_named else scale(of_curves)
+        if is_named:
+            for value, colour in zip(distinct.tolist(), colours(np.linspace(0.0, 1.0, distinct.size))):
+                axes.plot([], [], color=colour, lw=2.0, label=_named(key, value))
+        else:
+            axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
         named = figures.plain_words(label(result.plan, index)) if few else None
         line_style: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named}
@@ -155,14 +168,17 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     for value, (marker, dashes) in styles.items():
-        named = (
-            f"{COLUMNS[keys[1]].label} {worded_value(keys[1], value)}" if keys[1] in COLUMNS else f"{keys[1]} {value:g}"
-        )
-        axes.plot([], [], color=figures.GREY, lw=1.0, ls=dashes, marker=marker, ms=3.5, label=named)
-    rows = figures.key_above(axes, 2) if styles or (few and len(indices) > 1) else 0
+        axes.plot([], [], color=figures.GREY, lw=1.0, ls=dashes, marker=marker, ms=3.5, label=_named(keys[1], value))
+    has_key = len(axes.get_legend_handles_labels()[1]) > 1
+    rows = figures.key_above(axes, 2) if has_key else 0
     some = "" if len(indices) == count else f": {len(indices)} of {count} curves"
     axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
     return axes
+
+
+def _named(key: str, value: float) -> str:
+    """Return the ``value`` of a varied ``key`` with its name, as a key of lines says it."""
+    return f"{COLUMNS[key].label} {worded_value(key, value)}" if key in COLUMNS else f"{key} {value:g}"
 
 
 def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = None, **style: Any) -> Axes:

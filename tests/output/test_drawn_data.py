@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from scene_text import paper_scene
 
@@ -623,3 +624,18 @@ def test_a_curve_without_intervals_says_so():
     interval_band(axes, speed, {"coefficient": f, "interval_low": unknown, "interval_high": unknown})
     assert axes.get_legend_handles_labels()[1] == ["95 % interval not known"]
     assert not axes.collections
+
+
+def test_few_values_of_a_study_are_named_and_many_are_read_off_a_bar():
+    """Each curve has the colour of its load in the key, none of them too light for white."""
+    scene = paper_scene(numerics={"sampling": "patch", "model": "paper", "contact_tolerance": 1e-3})
+    loads = [3.0, 4.0, 9.0]
+    study = lubfric.study(scene, {"bodies.load": loads, "lubricant.viscosity": [0.1, 0.2, 0.3, 0.4]}, [0.1, 0.3])
+    axes = new_figure().subplots()
+    study.plot(axes)
+    assert len(axes.figure.axes) == 1
+    handles = dict(zip(*reversed(axes.get_legend_handles_labels())))
+    colours = [to_rgb(handles[f"total load {load:g} N"].get_color()) for load in loads]
+    drawn = {to_rgb(line.get_color()) for line in axes.lines if len(line.get_xdata()) == 2}
+    assert drawn == set(colours) and len(drawn) == 3
+    assert max(0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in colours) < 0.8
