@@ -23,6 +23,7 @@ from lubfric.models import (
     SampleSolution,
     registry,
 )
+from lubfric.models.deterministic import DeterministicSolution
 from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_joined_strips
 from lubfric.output import describe_scene, main, report, study_report
 from lubfric.quantities import CHOICES, COLUMNS
@@ -188,6 +189,7 @@ class TestModel:
         solution = model.solve(prepared, prepared.sample, count, 0.03)
         assert isinstance(solution, SampleSolution) and solution.count == count
         assert solution.required_strips() >= count
+        assert solution.answer().numbers == solution.completed().answer().numbers
         completed = solution.corrected().completed()
         assert completed.completed() is completed and (completed.may_suffice() or not completed.why_sufficient())
         answer = completed.answer()
@@ -197,6 +199,17 @@ class TestModel:
         again = model.solve(prepared, prepared.sample, count, 0.03, start=solution).corrected().completed()
         f = answer.numbers["coefficient"]
         assert again.answer().numbers["coefficient"] == pytest.approx(f, rel=1e-3)
+
+    def test_shorter_cells_of_deterministic_strips_are_solved_once(self, monkeypatch):
+        calls = []
+        home = "lubfric.models.deterministic.deterministic_model."
+        monkeypatch.setattr(home + "levels_of", lambda *arguments: calls.append(arguments) or "levels")
+        monkeypatch.setattr(home + "answer_of", lambda prepared, speed, levels: levels)
+        solution = DeterministicSolution(
+            prepared=None, sample=None, count=1, speed=0.03, pairs=(), estimate=None, wanted=1
+        )
+        assert {solution.answer(), solution.corrected().answer(), solution.answer()} == {"levels"}
+        assert len(calls) == 1
 
     def test_a_model_estimates_its_work_before_any_solve(self, monkeypatch):
         """Each beyond the cheaper ones; at an order of magnitude that a tighter tolerance raises."""

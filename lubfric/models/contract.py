@@ -262,7 +262,7 @@ class SampleSolution(ABC):
 
     @abstractmethod
     def answer(self) -> ModelAnswer:
-        """Return all that the model says of this point. `completed` comes before it, but in `required_strips` by default."""
+        """Return all that the model says of this point. What `completed` would solve for it is solved here, if it is not yet."""
 
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough.
@@ -295,7 +295,7 @@ class SampleSolution(ABC):
         """Solve what the answer needs and `Model.solve` left out; itself where that is nothing, as of its own result.
 
         `lubfric.estimate.choice` calls it: once there are enough strips, whether of `Model.solve` or adopted from another
-        model (`Model.adopt`), and before it asks for the answer.
+        model (`Model.adopt`), and before it asks for the answer, which needs no solve then.
         """
         return self
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 from ...samples import Sample
 from ...scene import Scene, check_resolved_gap, has_moving_roughness, why_gap_not_resolved
@@ -33,7 +34,6 @@ class DeterministicSolution(SampleSolution):
     pairs : the strips, `count` of them
     estimate : the mean over them, with the control of a cheaper model or alone
     wanted : number of strips that the tolerances need
-    levels : with the effect of shorter cells, as `corrected` solves it; None: not solved
     """
 
     prepared: Prepared
@@ -43,19 +43,23 @@ class DeterministicSolution(SampleSolution):
     pairs: tuple[StripOnTwoGrids, ...]
     estimate: TwoLevelEstimate
     wanted: int
-    levels: Levels | None = None
+
+    @cached_property
+    def levels(self) -> Levels:
+        """All that is known of the point, with the effect of shorter cells, which is solved once. Raises
+        `ConvergenceError`, as a failure of the solve."""
+        return levels_of(self.prepared, self.speed, self.pairs, self.estimate)
 
     def required_strips(self) -> int:
         return self.wanted
 
     def corrected(self) -> DeterministicSolution:
-        """Solve the effect of shorter cells. Raises `ConvergenceError`, as a failure of the solve."""
-        return replace(self, levels=levels_of(self.prepared, self.speed, self.pairs, self.estimate))
+        """Solve the effect of shorter cells (`levels`), if it is not solved yet."""
+        _ = self.levels
+        return self
 
     def answer(self) -> ModelAnswer:
-        levels = self.corrected().levels if self.levels is None else self.levels
-        assert levels is not None
-        return answer_of(self.prepared, self.speed, levels)
+        return answer_of(self.prepared, self.speed, self.levels)
 
 
 class DeterministicModel(Model):

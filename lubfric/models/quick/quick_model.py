@@ -99,6 +99,10 @@ class QuickSolution(SampleSolution):
     def completed(self) -> QuickSolution:
         """Solve the strips on long cells; where they cannot answer, the joined strips by load sharing, if these are not
         solved."""
+        return self._completed
+
+    @cached_property
+    def _completed(self) -> QuickSolution:
         if self.on_long_cells is not None or self.why_by_equation:
             return self
         of_thick_films = _error_of_thick_films(self.prepared.scene, self.prepared.surface.sq, self.speed)
@@ -160,12 +164,13 @@ class QuickSolution(SampleSolution):
     @cached_property
     def _answer(self) -> ModelAnswer:
         """The answer, which is made once: `why_sufficient` takes its error."""
-        if self.on_long_cells is not None:
-            return quick_answer_of(self.prepared, self.speed, self.on_long_cells)
-        assert self.paper_solution is not None
-        answer = self.paper_solution.answer()
+        solution = self.completed()
+        if solution.on_long_cells is not None:
+            return quick_answer_of(solution.prepared, solution.speed, solution.on_long_cells)
+        assert solution.paper_solution is not None
+        answer = solution.paper_solution.answer()
         decision = replace(answer.decision, basis=BY_LOAD_SHARING)
-        return replace(answer, decision=decision, notes=(*answer.notes, self.why_by_equation))
+        return replace(answer, decision=decision, notes=(*answer.notes, solution.why_by_equation))
 
 
 def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float, float]:
