@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import replace
+from html import unescape
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric._base import figures
+from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 from lubfric.time import friction_over_time
 
@@ -224,3 +226,23 @@ def test_the_heat_of_the_inlet_does_not_thin_a_given_film_that_arrives(speed):
     starved = lubfric.friction(scene.with_(lubricant={"inlet_film": 60e-9}), speed)
     assert flooded.inlet_film_factor < 1.0 and flooded.full_load_film > 60e-9
     assert starved.full_load_film == pytest.approx(60e-9, rel=1e-12)
+
+
+@pytest.mark.parametrize("alpha, is_estimate", [(None, True), (2e-8, False)])
+def test_an_estimated_pressure_viscosity_coefficient_stands_beside_the_answer(tmp_path, alpha, is_estimate):
+    """With the changes by measured oils of the closed forms, as the effects that are not modelled have them."""
+    scene = lubfric.load_scene("paper").with_(
+        lubricant={"viscosity": None, "pressure_viscosity_coefficient": alpha, "grade": "ISO VG 68"}
+        | {"viscosity_index": 95, "temperature": "40 °C", "eyring_stress": 5e6},
+        numerics={"model": "paper", "sampling": "patch"},
+    )
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.5", "--out", str(tmp_path / "out")]) == 0
+    page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
+    answer = page.partition("Uncertainty budget")[0]
+    assert ("The pressure-viscosity coefficient is an estimate" in answer) == is_estimate
+    if is_estimate:
+        changes = [
+            change for what, change, _ in lubfric.friction(scene, 0.5).unmodelled_effects if "measured oils" in what
+        ]
+        assert f"{100 * max(changes):+.2g} %" in answer

@@ -102,6 +102,7 @@ from .unmodelled import (
     ExpectedEffect,
     UnmodelledEffect,
     change_in_words,
+    changes_by_alpha,
     effect_in_words,
     expected_effects,
     unmodelled_effects,

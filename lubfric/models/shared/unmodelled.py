@@ -10,6 +10,7 @@ change of f: it holds that of the result by any model.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -57,6 +58,9 @@ REYNOLDS_RUPTURE = 0.475
 LEAST_ASPERITY_PART = 0.1
 
 
+# What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
+GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this"
+
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
 POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
@@ -89,6 +93,13 @@ def unmodelled_effects(
     effects = _all_effects(scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion)
     kept = [effect for effect in effects if not abs(effect[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
+
+
+def changes_by_alpha(effects: Sequence[UnmodelledEffect]) -> tuple[float, float] | None:
+    """Return the lowest and the highest change of f, relative, by the pressure-viscosity coefficients of measured oils, of the
+    ``effects`` that are not modelled; None where the coefficient is given, or they change f by less than the tolerance."""
+    changes = [change for _, change, advice in effects if advice == GIVE_ALPHA and math.isfinite(change)]
+    return (min(0.0, *changes), max(0.0, *changes)) if changes else None
 
 
 def expected_effects(
@@ -188,7 +199,7 @@ def _of_film(
             (
                 words,
                 change(other, sq),
-                "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this",
+                GIVE_ALPHA,
             )
         )
     words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
