@@ -113,3 +113,9 @@ def open_topography(path):
     channels = [SimpleNamespace(name="Default")]
     result = SimpleNamespace(heights=lambda: heights, physical_sizes=sizes, unit=unit)
     return SimpleNamespace(channels=channels, topography=lambda channel_index: [result][channel_index])
+
+
+def metres_after(words, text):
+    """The length [m] that follows these ``words`` in a message, with its unit."""
+    number, unit = text.split(words)[1].split()[:2]
+    return float(number) * {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9}[unit.strip(",;.()")]

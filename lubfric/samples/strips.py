@@ -202,7 +202,7 @@ class MeasuredStrips(Sample):
         return [
             *lines,
             f"Sq of the strips is {100 * abs(deviation):.2g} % {side} that of the map (a sample of this size differs by up to "
-            f"{100 * explained:.2g} % at 95 %)",
+            f"{float(f'{100 * explained:.2g}'):g} % at 95 %)",
         ]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
+from ..units import worded
 from .header import LENGTH_UNITS, LENGTHS, Header
 from .points import grid_lines
 
@@ -160,7 +161,7 @@ def refuse_profile(
         sq = float(z.std())
         message += f" (Sq {sq:.4g} {unit or 'in the unit of the file'} about its mean line"
         if scale is not None:
-            message = f"{message[: message.rindex('(')]}(Sq {sq * scale:.4e} m about its mean line"
+            message = f"{message[: message.rindex('(')]}(Sq {worded(sq * scale, 'm')} about its mean line"
         length = _correlation_steps(z)
         if length is not None:
             message += f", correlation length {_length_in_words(length, table, units, spacing)}"
@@ -175,20 +176,22 @@ def _length_in_words(
     contradict each other, where they do."""
     given = None if spacing is None else spacing[0]
     if min(table.shape) == 1:
-        return f"{length:.3g} steps" if given is None else f"{length * given:.4g} m"
+        return f"{length:.3g} steps" if given is None else worded(length * given, "m")
     x = table[:, 0]
     step = abs(float(x[-1] - x[0])) / (x.size - 1)
     scale = None if units is None else LENGTHS.get(units[0]) or LENGTH_UNITS.get(units[0])
     if given is None:
         in_file = f"{length * step:.4g} in the unit of its first column"
         return (
-            in_file if scale is None else f"{length * step * scale:.4g} m with its first column in {units and units[0]}"
+            in_file
+            if scale is None
+            else f"{worded(length * step * scale, 'm')} with its first column in {units and units[0]}"
         )
     fitting = [unit for unit, size in LENGTHS.items() if abs(step * size / given - 1) < SAME_SPACING]
     if fitting:
-        return f"{length * given:.4g} m with its first column in {fitting[0]}, as spacing says"
+        return f"{worded(length * given, 'm')} with its first column in {fitting[0]}, as spacing says"
     return (
-        f"{length * given:.4g} m by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, contradict in "
+        f"{worded(length * given, 'm')} by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, contradict in "
         "every unit"
     )
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from instrument_files import metres_after
 
 import lubfric
 
@@ -99,7 +100,7 @@ def test_a_profile_of_taylor_hobson_is_refused_with_its_statistics(suffix, heigh
     sq = (z - np.polyval(np.polyfit(x, z, 1), x)).std()
     with pytest.raises(lubfric.InputError, match=f"profile of {NX} points, not a map of heights") as caught:
         lubfric.read_surface(path)
-    stated = float(str(caught.value).partition("(Sq ")[2].partition(" m")[0])
+    stated = metres_after("(Sq ", str(caught.value))
     assert stated == pytest.approx(sq, rel=1e-3)
     path.write_text("\n".join(smd(heights)).replace("EOR", "END"))
     with pytest.raises(lubfric.InputError, match="records are not those of ISO 5436-2"):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from instrument_files import metres_after
 
 from lubfric import InputError, generate_surface, read_surface
 
@@ -256,10 +257,10 @@ def test_a_profile_is_refused_with_its_statistics(tmp_path, columns):
         np.save(path, table) if suffix == ".npy" else path.write_text(rows(table, "%.9e", ";"))
         with pytest.raises(InputError, match="profile of 4000 points.*sq and correlation_length") as error:
             read_surface(path, spacing=0.5e-6, unit="m")
-        sq = float(str(error.value).split("Sq ")[1].split()[0])
+        sq = metres_after("Sq ", str(error.value))
         assert sq == pytest.approx(z.std(), rel=0.02)
         if columns == 2:
-            length = float(str(error.value).split("correlation length ")[1].split()[0])
+            length = metres_after("correlation length ", str(error.value))
             assert length == pytest.approx(10e-6, rel=0.4)
     (tmp_path / "one.txt").write_text(rows(z[None, :]))
     with pytest.raises(InputError, match="profile"):

@@ -227,9 +227,7 @@ def test_a_profile_is_described_in_the_units_that_are_stated(tmp_path):
     path = tmp_path / "a.txt"
     for heading, given in (("x [mm];z [µm]\n", {}), ("", {"unit": ("mm", "um")})):
         path.write_text(heading + rows, encoding="utf-8")
-        with pytest.raises(
-            InputError, match=r"Sq [67]\.\d*e-08 m about its mean line, correlation length [56]\.\d*e-06 m"
-        ):
+        with pytest.raises(InputError, match=r"Sq [67]\d\.\d* nm about its mean line, correlation length [56]\.\d* µm"):
             read_surface(path, **given)
 
 
@@ -240,7 +238,7 @@ def test_a_stated_spacing_sets_the_correlation_length_of_a_profile(scale, column
     rows = np.column_stack([scale * x, 0.1 * np.sin(x / 5e-6)])[:, -columns:]
     path = tmp_path / "a.txt"
     np.savetxt(path, rows)
-    with pytest.raises(InputError, match=r"correlation length [56]\.\d*e-06 m") as caught:
+    with pytest.raises(InputError, match=r"correlation length [56]\.\d* µm") as caught:
         read_surface(path, spacing=1e-6, unit="um")
     assert "contradict" not in str(caught.value)
     if columns == 2:
