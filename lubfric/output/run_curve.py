@@ -43,7 +43,8 @@ from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
-from .run_files import PICTURE_FORMATS, names_of_run
+from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, names_of_run
+from .study_pictures import plot_study
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
@@ -281,8 +282,13 @@ def plot_again(arguments: Namespace) -> None:
     if name is None and (folder / FIT).is_file():
         _plot_fit_again(arguments)
         return
+    if name is None and (folder / RESOLVED_STUDY).is_file():
+        _plot_study_again(arguments)
+        return
     if name is None:
-        raise InputError(f"{folder} has no stribeck.csv; give a folder that 'lubfric run' or 'lubfric fit' wrote")
+        raise InputError(
+            f"{folder} has no stribeck.csv; give a folder that 'lubfric run', 'lubfric study' or 'lubfric fit' wrote"
+        )
     if given and name != "stribeck":
         raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} has {TABLES[name]}")
     options = _picture_options(arguments, name)
@@ -302,6 +308,18 @@ def plot_again(arguments: Namespace) -> None:
         columns_of = {"coefficient": arguments.coefficient, "speed": arguments.speed}
         again = partial(again, measured=studies.read_measured(arguments.measured, **columns_of))
     _write_picture(arguments, name, again)
+
+
+def _plot_study_again(arguments: Namespace) -> None:
+    """Draw the picture of a study again."""
+    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "interval")
+    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
+    if given is not None:
+        option = given.replace("_", "-")
+        raise InputError(f"--{option} is for the picture of a run, and {arguments.folder} has a study; omit it")
+    options = _picture_options(arguments, "study")
+    result = studies.open_study(arguments.folder)
+    _write_picture(arguments, "study", partial(plot_study, result=result, options=options))
 
 
 def _plot_fit_again(arguments: Namespace) -> None:

@@ -7,6 +7,9 @@ from itertools import chain
 
 RESULT = "result.json"
 RESOLVED_SCENE = "resolved.toml"
+
+# The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
+RESOLVED_STUDY = "resolved_study.toml"
 PICTURE_FORMATS = ("png", "pdf", "svg")  # in which 'lubfric plot' draws a picture again
 
 

@@ -15,21 +15,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import studies
-from .._base import figures, plain, validate
+from .._base import plain, validate
 from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
-from ..quantities import KEYS, axis_label, counted, worded_value
-from ..units import ZERO_CELSIUS, converted, number_and_unit, numbers_of, unit_for, with_interval, worded
+from ..quantities import KEYS, counted, worded_value
+from ..units import number_and_unit, numbers_of, with_interval, worded
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .fit_picture import drawn_record, plot_fit
 from .progress import ProgressLine
-from .run_files import RESOLVED_SCENE
+from .run_files import RESOLVED_SCENE, RESOLVED_STUDY
+from .study_pictures import STUDY_PICTURE, plot_study
 from .study_report import answer_lines, planned_point_in_words, study_page
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 
 def run_study(arguments: Namespace) -> None:
@@ -45,7 +46,7 @@ def run_study(arguments: Namespace) -> None:
     studies.check_tools(netcdf=arguments.netcdf, parquet=arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments, arguments.out, [*names, "study.png", "report.html", RESOLVED_SCENE, RESOLVED_STUDY])
+    check_outputs(arguments, arguments.out, [*names, STUDY_PICTURE, "report.html", RESOLVED_SCENE, RESOLVED_STUDY])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
@@ -59,7 +60,7 @@ def run_study(arguments: Namespace) -> None:
         for name in names:
             folder.add(name, made, name, writers[name.partition(".")[2]])
         if np.isfinite(result["coefficient"]).any():
-            folder.draw("study.png", _picture, result)
+            folder.draw(STUDY_PICTURE, plot_study, result)
         if result.with_warnings:
             where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
             say(f"warnings at {where}: report.html has them in full, study.csv in the column validity")
@@ -80,9 +81,6 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(message, report, result)
 
 
-# The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
-RESOLVED_STUDY = "resolved_study.toml"
-
 # Time between two points up to which a process handed them over together [s].
 SECONDS_OF_A_BATCH = 0.2
 
@@ -91,113 +89,6 @@ LONGEST_BATCH = 5.0
 
 # Points of a study up to which each one gets a line on stderr.
 MOST_LINES = 200
-
-# Points from which on those of a picture are small, and their intervals thin.
-MANY_POINTS = 40
-
-# Panels of the picture of a study, at most: one for each number that is varied.
-MOST_PANELS = 4
-
-
-@figures.styled
-def _picture(path: Path, result: studies.StudyResult) -> None:
-    """Draw what a study found: curves over the speed; operating points with their power loss; of one speed, f over what
-    is varied: one number, two as a map, else all points by their number."""
-    longer = [(key, values) for key, (_, values) in result.coords.items() if values.size > 1]
-    numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
-    keys = [key for key, _ in longer]
-    title = figures.plain_words(result.plan.scene.name)
-    if result.paired:
-        figure = figures.new_figure(figsize=(7, 6.5))
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        studies.plot_points(result, "coefficient", upper).set_xlabel("")
-        studies.plot_points(result, "power_loss", lower)
-        figure.suptitle(title)
-        figure.savefig(path)
-        return
-    if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
-        studies.plot_map(path, result, keys[0], keys[1], title)
-        return
-    over = {key: values for key, values in _along(result).items() if key in keys and values.dtype.kind == "f"}
-    if 1 < len(over) <= MOST_PANELS and "speed" not in keys and not result.chosen:
-        _draw_panels(path, result, over, title)
-        return
-    figure = figures.new_figure(figsize=(7, 4.5))
-    axes = figure.subplots()
-    if "speed" in keys or result.chosen:
-        result.plot(axes)
-    elif numbers and len(keys) == 1:
-        _draw_intervals(axes, longer[0][1], result)
-        axes.set_xlabel(axis_label(keys[0]))
-        figures.log_if_wide(axes, "x", longer[0][1])
-        figures.plain_ticks(axes.xaxis)
-        figure.suptitle(title)
-    else:
-        _draw_intervals(axes, np.arange(1, result.status.size + 1), result)
-        axes.set_xlabel("no. of the point, as in report.html: its row of study.csv")
-        figure.suptitle(title)
-    figure.savefig(path)
-
-
-def _along(result: studies.StudyResult) -> dict[str, np.ndarray]:
-    """Return what is varied by its key, one value for each point, in the shape of the study."""
-    shape = result.status.shape
-    arrays = {}
-    for key, (dim, values) in result.coords.items():
-        sides = [1] * len(shape)
-        sides[result.dims.index(dim)] = values.size
-        arrays[key] = np.broadcast_to(values.reshape(sides), shape)
-    return arrays
-
-
-def _draw_panels(path: Path, result: studies.StudyResult, over: dict[str, np.ndarray], title: str) -> None:
-    """Draw f of all points over each of the numbers that are varied, side by side."""
-    figure = figures.new_figure(figsize=(1.0 + 2.9 * len(over), 4.2))
-    panels = figure.subplots(1, len(over), sharey=True, squeeze=False)[0]
-    for axes, (key, values) in zip(panels, over.items()):
-        shown = values.ravel()
-        label = axis_label(key)
-        if key == "lubricant.temperature":
-            shown = shown - float(ZERO_CELSIUS)
-            label = axis_label("lubricant.temperature_celsius")
-        elif key in KEYS:
-            unit = unit_for(shown.tolist(), KEYS[key].unit)
-            shown = converted(shown, KEYS[key].unit, unit)
-            label = axis_label(key, unit)
-        _draw_intervals(axes, shown, result)
-        axes.set_xlabel(label)
-        figures.log_if_wide(axes, "x", shown)
-        figures.plain_ticks(axes.xaxis)
-        axes.label_outer()
-        if axes is not panels[0]:
-            axes.get_legend().remove()
-    figure.suptitle(title)
-    figure.savefig(path)
-
-
-def _draw_intervals(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> None:
-    """Draw f of a study with its 95 % intervals, each as wide as it is, ``over`` (n,)."""
-    f = result["coefficient"].ravel()
-    low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
-    known = np.isfinite(low) & np.isfinite(high)
-    many = f.size > MANY_POINTS
-    width = 0.7 if many else 4
-    if known.any():
-        axes.vlines(
-            over[known],
-            low[known],
-            high[known],
-            color=figures.BLUE,
-            alpha=0.25 if many else 0.4,
-            lw=width,
-            label="95 % interval",
-        )
-    axes.plot(over, f, "o", ms=2.5 if many else 5, color=figures.BLUE, label="friction coefficient")
-    axes.set_ylabel(figures.FRICTION_LABEL)
-    finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])
-    if finite.size:
-        axes.set_ylim(min(0.0, 1.05 * finite.min()), 1.05 * max(finite.max(), 0.0) or None)
-    figures.key_above(axes)
 
 
 def _kept(folder: Path) -> str:

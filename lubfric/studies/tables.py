@@ -53,6 +53,9 @@ LINE_POINTS = 200
 # Relative error of f between the points up to which a curve is drawn as a line or given as a formula.
 DRAWN_ERROR = 0.05
 
+# Width and height of the picture of a map [inch].
+MAP_SIZE = (7.0, 5.0)
+
 # Values along both axes of a map from which it is drawn by contours.
 CONTOUR_VALUES = 6
 
@@ -376,11 +379,20 @@ def curve_axes(curve: Any, ax: Axes | None = None, **style: Any) -> Axes:
     return axes
 
 
-def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
+def plot_map(
+    path: Path,
+    study: Any,
+    across: str,
+    up: str,
+    title: str = "",
+    quantity: str = "coefficient",
+    *,
+    size: tuple[float, float] = MAP_SIZE,
+) -> None:
     """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
     ``"motion.slide_roll_ratio"``.
 
-    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
+    ``size``: width and height [inch]. Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
     of which there are two at least.
     """
     coords = study.coords
@@ -395,7 +407,7 @@ def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quan
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
     x, y = (_numbers(key, coords[key][1]) for key in (across, up))
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
-    figure = figures.new_figure(figsize=(7, 5))
+    figure = figures.new_figure(figsize=size)
     ax = figure.subplots()
     bar = figures.FRICTION_LABEL if quantity == "coefficient" else axis_label(quantity)
     if min(values.shape) < CONTOUR_VALUES:

@@ -17,7 +17,7 @@ from small_study import SCENE as SMALL
 import lubfric
 from lubfric import studies
 from lubfric._base.progress import report_progress
-from lubfric.output import main, run_study, study_report
+from lubfric.output import main, run_study, study_pictures, study_report
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -74,7 +74,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
 @pytest.mark.parametrize("vary", [{}, {"bodies.load": [3.0, 5.5]}, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}])
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
-    run_study._picture(tmp_path / "study.png", result)
+    study_pictures.plot_study(tmp_path / "study.png", result)
     assert (tmp_path / "study.png").stat().st_size > 5000 and len(study_report.answer_lines(result)) == 5
 
 
@@ -140,18 +140,20 @@ def test_a_grade_that_is_varied_is_no_common_input():
     "values, is_log", [([1, 2, 4, 8], True), ([1, 2, 3, 4], False), ([1, 1.5, 2], False), ([2, 30], False)]
 )
 def test_numbers_that_are_spaced_by_factors_have_a_logarithmic_axis(values, is_log):
-    axes = run_study.figures.new_figure().subplots()
-    run_study.figures.log_if_wide(axes, "x", np.array(values, dtype=float))
+    axes = study_pictures.figures.new_figure().subplots()
+    study_pictures.figures.log_if_wide(axes, "x", np.array(values, dtype=float))
     assert (axes.get_xscale() == "log") == is_log
 
 
 def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatch):
     drawn = []
-    new_figure = run_study.figures.new_figure
-    monkeypatch.setattr(run_study.figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1])
+    new_figure = study_pictures.figures.new_figure
+    monkeypatch.setattr(
+        study_pictures.figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1]
+    )
     vary = {"bodies.load": [3.0, 2.0], "numerics.heat": ["off", "auto"]}
     result = numbered(vary, lambda scene: scene.bodies.load)
-    run_study._picture(tmp_path / "study.png", result)
+    study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[-1].axes
     np.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[1, 3], [2, 3], [3, 2], [4, 2]])
     assert "study.csv" in axes.get_xlabel()
@@ -227,3 +229,19 @@ def test_how_far_a_point_of_a_study_is_reaches_the_user(tmp_path, monkeypatch):
     (tmp_path / "study.toml").write_text('scene = "scene.toml"\n[vary]\n"bodies.load" = [4.0, 5.0]\n')
     assert main(["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]) == 2
     assert seen == [("moving roughness", 3, 10)]
+
+
+def test_the_picture_of_a_study_is_drawn_again_for_a_journal(tmp_path, drawn):
+    """As wide as asked, in the folder of the study; options of a curve are refused by name."""
+    (tmp_path / "s.toml").write_text(SMALL.to_toml())
+    (tmp_path / "study.toml").write_text('scene = "s.toml"\nspeeds = [0.03, 0.3]\n[vary]\nbodies.load = [3.0, 5.5]\n')
+    out = tmp_path / "out"
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(out)]) == 0
+    before = (out / "study.png").read_bytes()
+    assert main(["plot", str(out), "--width", "85 mm", "--without", "title", "--format", "svg"]) == 0
+    head = (out / "study.svg").read_text(encoding="utf-8")[:2000]
+    width = float(re.search(r'width="([\d.]+)pt"', head)[1])
+    assert width == pytest.approx(85 / 25.4 * 72, rel=1e-3)
+    assert main(["plot", str(out), "--name", "again"]) == 0
+    assert (out / "again.png").read_bytes() == before == (out / "study.png").read_bytes()
+    assert main(["plot", str(out), "--panels", "load"]) != 0
