@@ -576,3 +576,8 @@ def test_an_old_name_raises_with_the_new_one(prepared):
     )
     with pytest.raises(AttributeError, match="called line now"):
         _ = film.contact
+    with pytest.raises(AttributeError, match="called log_load_ratio now"):
+        _ = lubfric.friction(PAPER, 0.01, model="paper").balance.split
+    study = lubfric.study(PAPER, {}, [0.01])
+    with pytest.raises(AttributeError, match="called with_warnings now"):
+        _ = study.cautioned

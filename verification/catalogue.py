@@ -18,8 +18,8 @@ class Study:
 
     target : "package.module:function"
     levels : those that it runs at
-    grade : grade of its checks that state none (`verification.check.GRADES`) options : keywords of the function in
-        addition to the level
+    grade : grade of its checks that state none (`verification.check.GRADES`)
+    options : keywords of the function in addition to the level
     """
 
     name: str

@@ -42,6 +42,7 @@ def fields_bytes(points: list[FrictionResult], half_width: float) -> bytes:
         if point.fields is not None:
             arrays |= {f"{name}_{i}": getattr(point.fields, name) for name in ("x", "y", *FIELDS)}
             arrays[f"solve_{i}"] = np.array(point.fields.solve)
+            arrays[f"pressure_includes_film_{i}"] = np.array(point.fields.pressure_includes_film)
         strip = point.deterministic
         if strip is not None:
             arrays |= {f"strip_{name}_{i}": getattr(strip, name) for name in OF_STRIP}
@@ -76,10 +77,12 @@ def read_contact(path: Path, speed: float) -> DrawnContact:
         )
     i = near[0]
     fields = None
-    if f"solve_{i}" in arrays:
+    if f"pressure_includes_film_{i}" in arrays:
         of_point = {name: arrays[f"{name}_{i}"] for name in ("x", "y", *FIELDS)}
         fields = ContactFields(
-            solve=str(arrays[f"solve_{i}"]), **of_point, pressure_includes_film=f"strip_x_{i}" in arrays
+            solve=str(arrays[f"solve_{i}"]),
+            **of_point,
+            pressure_includes_film=bool(arrays[f"pressure_includes_film_{i}"]),
         )
     return DrawnContact(
         speed=float(speeds[i]),

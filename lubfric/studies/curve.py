@@ -25,7 +25,7 @@ class CurveResult(Renamed, Shown):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
-    _RENAMED = {"entries": "violations"}
+    _RENAMED = {"entries": "violations", "told": "validity_cells"}
 
     def __getitem__(self, name: str) -> np.ndarray:
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import Shown, validate, with_default_errors
+from .._base import Renamed, Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import MethodUse, cited, methods_of
@@ -36,7 +36,7 @@ POINTS_AT_ONCE = 8
 
 
 @dataclass(frozen=True, repr=False)
-class StudyResult(Shown):
+class StudyResult(Renamed, Shown):
     """Numbers of a study: arrays over the varied values and, last, the speed.
 
     ``result["coefficient"]`` is such an array, ``result.dims`` names its axes, ``result.coords`` holds the values along
@@ -58,6 +58,7 @@ class StudyResult(Shown):
     columns: dict[str, np.ndarray]
     status: np.ndarray
     validity: np.ndarray
+    _RENAMED = {"cautioned": "with_warnings"}
 
     plot = plot
     law = law_of_study

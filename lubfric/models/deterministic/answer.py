@@ -412,7 +412,7 @@ def _violations(
         recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
             assumption=Assumption.FILM_BELOW_ITS_LIMIT,
-            what="share of the load on a saturated film, on the strips of the deterministic model,",
+            what="share of the load on a saturated film (strips of the deterministic model)",
             value=cut,
             limit=CUT,
             unit="",

@@ -84,7 +84,7 @@ class Balance(Renamed, ModelDetails):
     settings: Settings | None = None
     notes: tuple[str, ...] = ()
     why_no_film: str = ""
-    _RENAMED = {"contact": "contact_state"}
+    _RENAMED = {"contact": "contact_state", "split": "log_load_ratio"}
 
     @property
     def smooth_film(self) -> EHLResult | None:
