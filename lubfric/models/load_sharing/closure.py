@@ -7,8 +7,8 @@ carries more, it is thinner, and the gap is wider. So the residual of the closur
 
 Another closure of gap and film is another body of the first three functions; the others follow from these, and so do
 all equations that take them from here, at rest and in time. These are of this closure by themselves: the first guesses of a
-root (`balance.predict_log_load_ratio`, powers of the loads, and `balance._root_start`, a film of two Sq); the film that
-fills the gap in `answer.fields_on`; limits that take film and gap for lengths of one size (`balance._needed_settings`,
+root (`balance.predict_log_load_ratio`, powers of the loads, and `balance._root_start`, a film of two Sq); where the film does
+not fill the gap in the inlet (`balance._in_contact`), and the film that fills it in `answer.fields_on`; limits that take film and gap for lengths of one size (`balance._needed_settings`,
 `BalancedSample.is_too_coarse`); the estimates of work (`estimated_work.expected_gap`); `error_of_eq8`, which is measured;
 and the texts that say "Eq. (8)", which another closure replaces.
 """
