@@ -223,9 +223,13 @@ def test_the_heat_of_the_inlet_does_not_thin_a_given_film_that_arrives(speed):
         numerics={"model": "paper", "sampling": "patch"},
     )
     flooded = lubfric.friction(scene, speed)
-    starved = lubfric.friction(scene.with_(lubricant={"inlet_film": 60e-9}), speed)
+    starved_scene = scene.with_(lubricant={"inlet_film": 60e-9})
+    starved = lubfric.friction(starved_scene, speed)
     assert flooded.inlet_film_factor < 1.0 and flooded.full_load_film > 60e-9
     assert starved.full_load_film == pytest.approx(60e-9, rel=1e-12)
+    factor = flooded.inlet_film_factor
+    assert scene.line_contact(speed).expected_film_with(factor) == pytest.approx(flooded.full_load_film, rel=1e-12)
+    assert starved_scene.line_contact(speed).expected_film_with(factor) == pytest.approx(60e-9, rel=1e-12)
 
 
 @pytest.mark.parametrize("alpha, is_estimate", [(None, True), (2e-8, False)])
