@@ -101,7 +101,7 @@ speeds = [0.03]
 """
 
 
-@pytest.mark.parametrize("name", ["answer_lines", "study_page", "_picture", "made"])
+@pytest.mark.parametrize("name", ["answer_lines", "study_page", "plot_study", "made"])
 def test_each_writer_of_a_study_may_fail(name, tmp_path, capsys, monkeypatch, drawn):
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     (tmp_path / "study.toml").write_text(STUDY)
