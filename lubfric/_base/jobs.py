@@ -37,7 +37,7 @@ def current_executor() -> Executor | None:
 def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any) -> list[T]:
     """Return ``function(*arguments, part)`` of all ``parts``, in their order.
 
-    Work is counted as if the parts were done one after the other (`lubfric._base.work`), so that a limit ends the same
+    Work is counted as of parts that are done one after the other (`lubfric._base.work`), so that a limit ends the same
     part. Function, arguments and results must pickle where an executor does it. An exception is that of the first part, in
     their order, that raises one. What a lost process had is done here.
     """

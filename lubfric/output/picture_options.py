@@ -37,7 +37,7 @@ class PictureOptions:
     dpi : points of a PNG per inch; None: `PRINTED_DPI` where the width is chosen, else that of the style
     has_warnings : whether points with warnings are marked, and the warnings named below
     has_parts : whether lines show the errors by the model and by the surface alone
-    has_title : whether the name of the scene stands above
+    has_title : whether the name of the scene is above
     has_bars : whether the intervals of a curve are bars at its points, in place of a band with those lines
     """
 

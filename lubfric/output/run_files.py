@@ -19,7 +19,7 @@ class RunFile:
 
     Attributes
     ----------
-    name : of the file; a * stands for what differs between several of them
+    name : of the file; a * is what differs between several of them
     runs : the runs that may write it whatever their options, "stribeck", "traction" or "history"; none: only an option
         or another command makes it
     caption : what the report says below it; "": it is no picture of the report

@@ -24,7 +24,7 @@ STUDY_HEIGHT = 4.5
 STUDY_MAP_HEIGHT = 5.0
 PAIRED_HEIGHTS = (3.25, 3.25)
 
-# Width of a panel, and of what stands beside all of them [inch].
+# Width of a panel, and of what is beside all of them [inch].
 PANEL_WIDTH = 2.9
 PANEL_MARGIN = 1.0
 

@@ -7,7 +7,7 @@ from .._base import Shown, packaged, validate
 from ..errors import InputError
 from . import budget
 
-MOST_THREADS = 1024
+MOST_THREADS = 1024  # of a transform. A convention: more than a machine has
 
 # A value of ``model`` in version 0.2.0, which is still accepted, for the model "quick".
 FORMER_NAME_OF_QUICK = "load-sharing"

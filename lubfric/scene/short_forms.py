@@ -30,7 +30,7 @@ from ..units import HV
 from .bodies import Bodies, friction_of, pair
 from .roughness import Roughness
 
-MOST_SPEEDS = 1_000_000
+MOST_SPEEDS = 1_000_000  # of a range. A convention
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
 PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
 OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field

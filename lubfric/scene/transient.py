@@ -18,7 +18,7 @@ HISTORIES = {  # what may change in time, and the key that has it where it does 
     "viscosity": "lubricant.viscosity",
 }
 UNITS_OF_HISTORIES = {name: KEYS.get(key, KEYS["speed"]).unit for name, key in HISTORIES.items()}
-MOST_LAPS = 1e5
+MOST_LAPS = 1e5  # periods of a history in a run. A convention
 HISTORY_LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
 HISTORY_KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 

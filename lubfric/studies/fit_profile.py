@@ -28,7 +28,7 @@ INTERPOLATED = 0.25
 # Positions between two curves at which interpolated residuals are compared, as a share of their distance.
 BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
 
-# Where a curve between two others may lie, as a share of their distance: nearer ones would hardly narrow it.
+# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little.
 WITHIN_CURVES = (0.3, 0.7)
 
 

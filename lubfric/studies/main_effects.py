@@ -12,7 +12,7 @@ from .tables import columns_of_study
 # Points with f from which shares are stated. A convention.
 LEAST_POINTS = 6
 
-# Points with f for each number that hardly repeats, from which shares are stated. A convention.
+# Points with f for each number that seldom repeats, from which shares are stated. A convention.
 POINTS_FOR_EACH = 6
 
 # Correlation of two inputs from which their shares are not told apart. A convention.
@@ -40,7 +40,7 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     """Return the `MainEffect` of every input that a `StudyResult` varies, by its key, the largest first.
 
     The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order index
-    of Sobol); of a number that hardly repeats, that of a parabola in the number, or in its logarithm where it varies by
+    of Sobol); of a number that seldom repeats, that of a parabola in the number, or in its logarithm where it varies by
     more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
     together, as those along a path of contact do. What only says where an operating point lies is no input.
     """
@@ -73,7 +73,7 @@ def _coordinate(values: np.ndarray) -> np.ndarray:
 
 
 def _is_scattered(values: np.ndarray) -> bool:
-    """Return whether an input hardly repeats its ``values``."""
+    """Return whether an input seldom repeats its ``values``."""
     return bool(np.unique(values).size * POINTS_IN_GROUP > values.size)
 
 

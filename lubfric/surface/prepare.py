@@ -14,11 +14,11 @@ FORM_POWERS = {  # the powers of each; of several sets the one that leaves least
     "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
 }
 BETTER = 0.9  # of Sq: a form that leaves less than that of another is worth its terms. A convention.
-MOST_MISSING = 0.5
+MOST_MISSING = 0.5  # of the points of a map that may be filled. A convention
 LEFT_BY_FORM = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
 OUTLIER_LIMIT = 6.0  # robust deviations beyond which a point that stands alone is an outlier
-WINDOW = 5
+WINDOW = 5  # points along each side of the window of which an outlier deviates
 CHUNK = 2**18  # points whose windows are held at once
 GAUSSIAN = 1.4826  # standard deviation over median deviation
 ALPHA = math.sqrt(math.log(2) / math.pi)

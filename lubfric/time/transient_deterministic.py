@@ -188,7 +188,7 @@ class TransientDeterministic:
         return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
 
     def start(self) -> Step:
-        """Return the state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or
+        """Return the state at t = 0: steady, of roughness at rest; at rest, with all load on the dry contact; or
         without pressure at a flying height. In the last two the gap is full."""
         transient = transient_of(self.scene)
         problem = self.problem_at(0.0)

@@ -15,7 +15,7 @@ from .strip import StripSolution
 # The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
 # narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
 # `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant into the narrow
-# gaps, by a part of their height that falls with the square of the cells: f changes as if the boundary film were
+# gaps, by a part of their height that falls with the square of the cells: f changes as by a boundary film that is
 # thinner. So the effect is in proportion to d ln f/d ln(boundary film).
 
 # Part by which the narrow gaps are too small, over (cell/correlation length)² along x and along y [-].
@@ -27,7 +27,7 @@ NARROW_GAPS = (1.4, 0.35)
 SCATTER_BY_CELLS = 0.7
 
 # Relative error of f, at 95 %, that does not depend on the boundary film, over (cell along x/correlation length)² [-]:
-# by steps of second order, and by steps along the lubricant, of third order. Nine contacts that hardly depend on it
+# by steps of second order, and by steps along the lubricant, of third order. Nine contacts that depend on it little
 # differ by 0.1 to 0.9 %.
 ALONG_X = (0.3, 0.08)
 

@@ -22,7 +22,7 @@ LOAD_RATIO = 0.27
 LOAD_RATIO_BY_FILM = -2.9
 LOAD_RATIO_BY_THICKENING = -0.88
 
-# The least of that coefficient times that pressure that counts [-]: below it the viscosity hardly changes. A convention.
+# The least of that coefficient times that pressure that counts [-]: below it the viscosity changes little. A convention.
 LEAST_COUNTED_THICKENING = 1.0
 
 

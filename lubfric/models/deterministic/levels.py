@@ -377,7 +377,7 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     friction = mean_over_blocks(samples, "friction", width, control)
     rubbing = mean_over_blocks(samples, "contact_load", width, control)
     load = prepared.scene.bodies.load
-    if numbers["contact_load"] > 0 and 0 < rubbing.value < 1:  # else hardly anything rubs: the mean of the strips
+    if numbers["contact_load"] > 0 and 0 < rubbing.value < 1:  # else too little rubs: the mean of the strips
         contact_load = rubbing.value * load
         times = contact_load / numbers["contact_load"]
         for name in names_with("follows_asperity_load"):

@@ -144,7 +144,7 @@ def moments(
     problem_at : of a time [s], from 0 on, the `Problem` then: its ``heights`` [m] (nx, ny) are those of both bodies.
         Load and speed may change too, the grid may not
     step : [s]. If the lubricant passes one cell in it, the mass is followed along
-    start : the state at time 0; None: the steady film there, as if the roughness were at rest
+    start : the state at time 0; None: the steady film there, of roughness at rest
     tolerance : of the residuals of a step (`lubfric.models.deterministic.state.residuals`); small waves need 1e-6 and
         less
     carries_imbalance : whether the mass that a step leaves out of balance is added to that of the next step. Then it

@@ -90,7 +90,7 @@ MOMENTS_SPARE = 1.1
 # Numbers of a strip that are kept at every moment.
 SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film")
 
-# Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
+# Inputs that change the shear stress of a film, but very little its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = tuple(f"lubricant.{law.key}" for law in (*FLOW_LAWS, *LIMIT_LAWS))
 
 # Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and two of every place along y.

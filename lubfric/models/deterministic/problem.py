@@ -52,7 +52,7 @@ FILM_INLET = 1.5
 # sqrt(2 R h) to the outlet end [-], at least. Half and twice change nothing.
 FILM_OUTLET = 0.8
 
-# Pressure-viscosity coefficient times Hertz pressure below which pressure hardly thickens the lubricant: no strip above 0.7
+# Pressure-viscosity coefficient times Hertz pressure below which pressure thickens the lubricant little: no strip above 0.7
 # took long by Newton's method alone, and one of 0.7 did at 19 GPa.
 ISOVISCOUS = 1.0
 
@@ -145,7 +145,7 @@ class Problem(HasLineContact):
 
 
 def are_soft(line: LineContact, sq: float) -> bool:
-    """Return whether pressure hardly thickens the lubricant (`ISOVISCOUS`), and the bodies of ``line`` flatten by more
+    """Return whether pressure thickens the lubricant little (`ISOVISCOUS`), and the bodies of ``line`` flatten by more
     than their roughness of ``sq`` [m]."""
     peak = line_peak_pressure(line.load_per_width, line.radius, line.e_prime)
     thickened = line.lubricant.pressure_viscosity_coefficient * peak

@@ -59,7 +59,7 @@ CLEAR_OF_SUMMITS = 10.0
 # Distance in ln F_C from a reference point up to which its effect of the cells may serve.
 NEAR_LOAD = 0.25
 
-# Slide-roll ratio of the reference point [-], whatever that of the point is. Film and contact hardly depend on it.
+# Slide-roll ratio of the reference point [-], whatever that of the point is. Film and contact depend on it little.
 REFERENCE_RATIO = 0.1
 
 # Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells

@@ -93,7 +93,7 @@ RISE = 0.4
 # Friction where the film carries most of the load, over f_b, about.
 FILM_FRICTION = 0.25
 
-# Film [Sq] that hardly meets an asperity.
+# Film [Sq] that meets very few asperities.
 CLEAR_OF_ASPERITIES = 5.5
 
 # Films [Sq] between which all of a piece is solved on native cells, for summits that longer ones cut off.
@@ -147,7 +147,7 @@ def _times_by_heat(scene: Scene) -> float:
 
 def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
     """Return the expected relative standard error of f after the first strips of ``sample``, under the ``film`` [m] of the
-    total load on ``sq`` [m]; 0 where asperities hardly touch, and without entrainment.
+    total load on ``sq`` [m]; 0 where very few asperities touch, and without entrainment.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the total load would

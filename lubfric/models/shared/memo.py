@@ -1,6 +1,6 @@
 """What a prepared scene remembers between speeds: contacts, operators and reference points, by typed keys.
 
-What is remembered depends on the prepared scene and its key alone, and its work is counted at each use, as if it were made
+What is remembered depends on the prepared scene and its key alone, and its work is counted at each use, as of what is made
 again: what a point has left to spend decides what it solves. So it changes the time that a point takes, never its result.
 """
 

@@ -35,7 +35,7 @@ RUBBED = 0.75
 # Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s.
 GAP_IN_CONTACT = 1.6
 
-# Film over Sq from which roughness that moves hardly matters.
+# Film over Sq from which the motion of roughness has little effect.
 FILM_THAT_HIDES_ROUGHNESS = 3.0
 
 # E' [Pa] below which a body is a covered roller or a seal.
