@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 import lubfric
 from lubfric.film import Effort, solve_line_contact
 from lubfric.models.deterministic import changes_of, error_by_cells, solve_strip
-from lubfric.models.shared import JoinedKey, Memo
+from lubfric.models.shared import JoinedKey, Memo, numbers_of_fields
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper")
@@ -137,3 +138,18 @@ def test_what_is_remembered_is_not_pickled():
     before = len(pickle.dumps(shared))
     memo.put(JoinedKey((1, 1), 1), np.zeros(10_000), 10_000)
     assert len(pickle.dumps(shared)) == before
+
+
+def test_what_is_remembered_counts_all_its_fields(monkeypatch):
+    """Three fields of a contact: where there is room for those of two contacts beside the last one, a fourth takes the place of
+    the first."""
+    cells = 50
+    monkeypatch.setattr(lubfric.models.shared.memo, "MOST_MEMO_CELLS", 6 * cells + 2)
+    memo = Memo()
+    contact = SimpleNamespace(**dict.fromkeys(("pressure", "gap", "displacement"), np.zeros(cells)))
+    for number in range(4):
+        memo.get(JoinedKey((1, 1), number), lambda: contact, numbers_of_fields)
+    made = []
+    for number in (3, 2, 1, 0):
+        memo.get(JoinedKey((1, 1), number), lambda number=number: made.append(number))
+    assert made == [0]

@@ -11,7 +11,7 @@ import numpy as np
 from ..._base import FloatArray, IntArray
 from ...contact import BOUNDARY, ContactResult, solve_contact
 from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
-from ..shared import DryContactKey
+from ..shared import DryContactKey, numbers_of_fields
 from .linear import has_high_pressure
 from .newton import NEWTON_PATIENCE, NewtonResult, Work, march, newton
 from .problem import Problem, are_soft
@@ -382,7 +382,7 @@ def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactRe
         operator=problem.operator.identity,
         tolerance=tolerance,
     )
-    return problem.memo.get(key, make, lambda dry: dry.pressure.size)
+    return problem.memo.get(key, make, numbers_of_fields)
 
 
 def _lifts(problem: Problem) -> tuple[float, ...]:

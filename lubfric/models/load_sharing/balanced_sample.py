@@ -22,10 +22,10 @@ from ..shared import (
     ReferenceKey,
     StandardError,
     add_errors,
-    cells_of_contact,
     contact_on_joined_strips,
     contact_on_piece,
     has_too_few_contacts,
+    numbers_of_fields,
     remembered,
     speed_of,
     strips_for_error,
@@ -342,8 +342,13 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
             return None
 
     key = BalanceKey(scene=typical, coarsening=sample.cells.coarsening, at=nearest, is_forward=speed > 0)
-    balance = remembered(prepared, sample, key, make, lambda balance: cells_of_contact(rough_contact))
+    balance = remembered(prepared, sample, key, make, _numbers_of_balance)
     return balance if balance is not None and balance.response is not None else None
+
+
+def _numbers_of_balance(balance: Balance | None) -> int:
+    """Return how many numbers the fields of a ``balance`` have."""
+    return numbers_of_fields(None if balance is None else balance.contact_state.fields)
 
 
 def _at_reference_ratio(scene: Scene) -> Scene:

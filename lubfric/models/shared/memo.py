@@ -118,6 +118,11 @@ class ReferenceKey(Key[Any]):
     is_forward: bool
 
 
+def numbers_of_fields(contact: ContactResult | None) -> int:
+    """Return how many numbers the fields of a dry ``contact`` have, each of which counts as a cell; 0 without one."""
+    return 0 if contact is None else contact.pressure.size + contact.gap.size + contact.displacement.size
+
+
 @dataclass(frozen=True, kw_only=True)
 class MemoEntry:
     """What was made: ``value``, its number of ``cells``, and the ``work`` [s] that was counted for it."""
