@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
@@ -310,13 +310,17 @@ def plot_again(arguments: Namespace) -> None:
     _write_picture(arguments, name, again)
 
 
+def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
+    """Refuse the first of the options of these ``names`` that the ``arguments`` give; ``why``: what the message says of it."""
+    given = next((name for name in names if getattr(arguments, name) is not None), None)
+    if given is not None:
+        raise InputError(f"--{given.replace('_', '-')} {why}")
+
+
 def _plot_study_again(arguments: Namespace) -> None:
     """Draw the picture of a study again."""
-    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "interval")
-    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
-    if given is not None:
-        option = given.replace("_", "-")
-        raise InputError(f"--{option} is for the picture of a run, and {arguments.folder} has a study; omit it")
+    of_runs = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "interval")
+    _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a study; omit it")
     options = _picture_options(arguments, "study")
     result = studies.open_study(arguments.folder)
     _write_picture(arguments, "study", partial(plot_study, result=result, options=options))
@@ -324,10 +328,8 @@ def _plot_study_again(arguments: Namespace) -> None:
 
 def _plot_fit_again(arguments: Namespace) -> None:
     """Draw the picture of a fit again."""
-    of_curves = ("measured", "speed", "coefficient", "panels", "without", "interval")
-    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
-    if given is not None:
-        raise InputError(f"--{given} is for the picture of a run, and {arguments.folder} has a fit; omit it")
+    of_runs = ("measured", "speed", "coefficient", "panels", "without", "interval")
+    _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a fit; omit it")
     options = _picture_options(arguments, "fit")
     _write_picture(arguments, "fit", partial(plot_fit, record=read_fit(arguments.folder / FIT), options=options))
 
@@ -335,10 +337,7 @@ def _plot_fit_again(arguments: Namespace) -> None:
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
     of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without", "interval")
-    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
-    if given is not None:
-        option = given.replace("_", "-")
-        raise InputError(f"--{option} is for the picture of a curve, and --contact draws the contact; omit one of them")
+    _refuse(arguments, of_curves, "is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
     options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))
     _write_picture(

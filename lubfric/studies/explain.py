@@ -36,7 +36,11 @@ LISTED = 4
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
     """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
     factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
-    points = _estimated_points(prepared, speeds)
+    return _curve_seconds(_estimated_points(prepared, speeds), speeds, has_new_map=has_new_map)
+
+
+def _curve_seconds(points: Sequence[PointWorkEstimate], speeds: Sequence[float], *, has_new_map: bool = True) -> float:
+    """Return the processor seconds of the ``points`` of a scene; ``speeds``, ``has_new_map``: as of `curve_seconds`."""
     known = {part.what for point in points for part in point.shared if part.is_of_surface_alone and not has_new_map}
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
 
@@ -128,9 +132,10 @@ def _left(plan: Any, table: StudyTable) -> Left:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
             prepared = prepare(scene)
-            one = curve_seconds(prepared, speeds) + time.process_time() - begun
+            points = _estimated_points(prepared, speeds)
+            one = _curve_seconds(points, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
-            models.update(point.model.name for point in _estimated_points(prepared, speeds))
+            models.update(point.model.name for point in points)
             violations.append(_of_given_sliding(plan, _expected(prepared, speeds)))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")

@@ -243,14 +243,18 @@ def _in_contact(
 def response_of(point: Point, balance: Balance) -> Response:
     """Return the response of film and contact of ``balance`` to the load, with the friction that they have at ``point``."""
     assert balance.film is not None
-    trial = Trial(
-        film=balance.film,
+    return _response(point, _trial_of(balance, balance.film))
+
+
+def _trial_of(balance: Balance, film: EHLResult) -> Trial:
+    """Return the ``film`` and the contact of a ``balance`` as a trial, from which others start."""
+    return Trial(
+        film=film,
         contact_state=balance.contact_state,
         film_load=balance.film_load,
         contact_load=balance.contact_load,
         last_touching=balance.contact_state,
     )
-    return _response(point, trial)
 
 
 def _response(point: Point, trial: Trial) -> Response:
@@ -296,13 +300,7 @@ def _root_start(point: Point, sq: float, start: Balance | None) -> RootStart:
         thickness = max(2 * sq, 1e-12)
         film_share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
         return RootStart(log_load_ratio=math.log(film_share / (1 - film_share)), step=FIRST_RATIO_STEP)
-    trial = Trial(
-        film=start.film,
-        contact_state=start.contact_state,
-        film_load=start.film_load,
-        contact_load=start.contact_load,
-        last_touching=start.contact_state,
-    )
+    trial = _trial_of(start, start.film)
     if start.film.entrainment_speed == point.speed:
         return RootStart(log_load_ratio=start.log_load_ratio, slope=start.slope, last=trial)
     log_load_ratio, slope = predict_log_load_ratio(point, start)

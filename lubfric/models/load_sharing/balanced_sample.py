@@ -330,12 +330,11 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
         return None
 
     typical = _at_reference_ratio(scene)
-    rough_contact = contact_on_joined_strips(prepared, sample, sample.first_strips)
 
     def make() -> Balance | None:
         there = speed_of(typical, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(typical, there, rough_contact, sq)
+            return solve_balance(typical, there, contact_on_joined_strips(prepared, sample, sample.first_strips), sq)
         except WorkLimitError:  # not of that speed: a point with more work left solves it
             raise
         except LubfricError:

@@ -419,11 +419,10 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
     interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
     if error is not None and error > tolerance:
         is_large = error > LARGE_NUMERICAL_ERROR
-        why = (
-            "this is more than the limit that numerics.tolerance sets; the interval of f includes it where it is known"
-        )
         if is_large:
             why = "this is so much that f is an order of magnitude only"
+        else:
+            why = "this is more than the limit that numerics.tolerance sets; the interval of f includes it where it is known"
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,
