@@ -7,21 +7,11 @@
 have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
-from .contract import (
-    ALL_TOUCH,
-    AUTO,
-    FEW_TOUCH,
-    NONE_TOUCHES,
-    ContactFields,
-    Model,
-    ModelAnswer,
-    ModelDetails,
-    SampleSolution,
-    SharedWork,
-    WorkEstimate,
-)
+from .contract import AUTO, Model, SampleSolution
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
+from .model_answer import ContactFields, ModelAnswer, ModelDetails
 from .prepare import prepare, prepare_on_maps, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
 from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to
+from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate

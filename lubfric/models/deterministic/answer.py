@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
-from ..contract import AtInputs, ContactFields, ModelAnswer
+from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
     Assumption,

@@ -8,7 +8,8 @@ from functools import cached_property
 from ...samples import Sample
 from ...scene import Scene, check_resolved_gap, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
-from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import Model, SampleSolution
+from ..model_answer import ModelAnswer
 from ..shared import (
     ControlVariate,
     ExpectedViolations,
@@ -17,6 +18,7 @@ from ..shared import (
     rolling_model_error,
     why_no_rough_film,
 )
+from ..work_estimate import WorkEstimate
 from .answer import answer_of
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import estimated_work, why_too_costly

@@ -13,8 +13,9 @@ from ...scene import (
     why_gap_not_resolved,
 )
 from ...surface import Surface
-from ..contract import AUTO, WorkEstimate
+from ..contract import AUTO
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, peak_hertz_pressure, student
+from ..work_estimate import WorkEstimate
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness

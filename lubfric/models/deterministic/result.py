@@ -16,7 +16,7 @@ import numpy as np
 from ..._base import FloatArray, Renamed
 from ...errors import Report
 from ...oil import Lubricant, shear_stress
-from ..contract import ModelDetails
+from ..model_answer import ModelDetails
 from ..shared import LIMIT_RANGE
 from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State

@@ -9,7 +9,7 @@ import numpy as np
 from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
 from ...scene import Scene, has_moving_roughness
-from ..contract import AtInputs, ContactFields, ModelAnswer
+from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     Assumption,
     Prepared,

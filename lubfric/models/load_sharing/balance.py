@@ -8,7 +8,7 @@ from ...contact import ContactState, RoughContact
 from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
-from ..contract import ModelDetails
+from ..model_answer import ModelDetails
 from ..shared import film_and_exponents, is_of_impossible_stress
 from .closure import gap_under, residual_slope, volume_residual
 from .forces import Forces, forces_of

@@ -8,8 +8,8 @@ from ...oil import shear_stress
 from ...samples import PIECE_LENGTH, Cells, Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
-from ..contract import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
 from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, is_smooth_over_cells
+from ..work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
 from .balanced_sample import nearest_reference
 from .cell_effect import MOST_PIECE_CELLS
 from .error_of_eq8 import load_sharing_error

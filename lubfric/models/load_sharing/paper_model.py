@@ -5,7 +5,8 @@ from __future__ import annotations
 from ...samples import Sample
 from ...scene import Scene, why_gap_not_resolved
 from ...surface import Surface
-from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import Model, SampleSolution
+from ..model_answer import ModelAnswer
 from ..shared import (
     ControlVariate,
     ExpectedViolations,
@@ -15,6 +16,7 @@ from ..shared import (
     expected_in_film,
     rolling_model_error,
 )
+from ..work_estimate import WorkEstimate
 from .answer import answer_of, violations_of_sample
 from .balanced_sample import BalancedSample
 from .differences_of_strips import control_for

@@ -16,9 +16,10 @@ from ...errors import ConvergenceError
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
-from ..contract import NONE_TOUCHES, Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import Model, SampleSolution
 from ..deterministic import work_of_fine_fields, work_on_long_cells
 from ..load_sharing import PaperModel, PaperSolution, expected_model_error, methods_of_load_sharing
+from ..model_answer import ModelAnswer
 from ..shared import (
     ControlVariate,
     ExpectedViolations,
@@ -31,6 +32,7 @@ from ..shared import (
     stated_sq,
     why_no_rough_film,
 )
+from ..work_estimate import NONE_TOUCHES, WorkEstimate
 from .calibrated_error import error_model_of, out_of_range, reported, widening
 from .long_cells import CELLS_OF_THIN_FILM, map_coarsening_at_rest, map_coarsening_in_motion
 from .strips_on_long_cells import (

@@ -11,7 +11,6 @@ import numpy as np
 
 from ..._base import work_left
 from ...scene import Scene, has_moving_roughness
-from ..contract import ModelAnswer
 from ..deterministic import (
     UNKNOWN_SLOPE,
     Levels,
@@ -24,6 +23,7 @@ from ..deterministic import (
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
+from ..model_answer import ModelAnswer
 from ..shared import (
     REDUCED_BY_DETERMINISTIC,
     ModelErrorPart,

@@ -1,0 +1,163 @@
+"""What a model says of one operating point: its `ModelAnswer`, with the `ContactFields` of one solve.
+
+`lubfric.estimate` builds the `FrictionResult` from it. A model fills what it knows: the defaults say that it knows no more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from ..errors import Report
+from ..film import EHLResult
+from ..scene import Scene
+from .shared import REDUCED_BY_TOLERANCE, Decision, ModelErrorPart, StandardError, Violation, error_of_parts
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactFields:
+    """The fields of one solve, all on the same cells (nx, ny), x along the motion; NaN: the solve has none.
+
+    Attributes
+    ----------
+    solve : which solve they are of, as text
+    x, y : cells [m], (nx,) around the line of contact, and (ny,)
+    heights : of the roughness of both bodies about their mean [m], out of them
+    pressure : of the asperity contacts [Pa]; of film and contact together by the deterministic model
+    gap : between the rough surfaces [m]
+    deflection : of both bodies by the pressure [m], up to a constant; of a deterministic solve with its dents
+    film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
+    shear : shear stress [Pa]; NaN where the solve has none
+    half_width : of the Hertz strip of the total load [m]; NaN without one
+    pressure_includes_film : whether ``pressure`` is of film and contact together, in their rough gap
+    """
+
+    solve: str
+    x: np.ndarray
+    y: np.ndarray
+    heights: np.ndarray
+    pressure: np.ndarray
+    gap: np.ndarray
+    deflection: np.ndarray
+    film: np.ndarray
+    shear: np.ndarray
+    half_width: float = math.nan
+    pressure_includes_film: bool = False
+
+    def __post_init__(self) -> None:
+        shape = (self.x.size, self.y.size)
+        for name in ("heights", "pressure", "gap", "deflection", "film", "shear"):
+            if getattr(self, name).shape != shape:
+                raise ValueError(f"{name} {getattr(self, name).shape} is not on the cells {shape} of the other fields")
+
+    @property
+    def pressure_label(self) -> str:
+        """What ``pressure`` is, as text."""
+        return "film and contact pressure" if self.pressure_includes_film else "contact pressure"
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """(dx, dy) [m] of the cells; of a single row or column the other length."""
+        steps = [float(axis[1] - axis[0]) if axis.size > 1 else math.nan for axis in (self.x, self.y)]
+        known = [step for step in steps if math.isfinite(step)] or [math.nan]
+        return (steps[0] if math.isfinite(steps[0]) else known[0], steps[1] if math.isfinite(steps[1]) else known[0])
+
+
+class ModelDetails:
+    """What a model keeps of its solve, for those who know it: a frozen dataclass, which a store of results can hold.
+
+    ``kind``: what it is, for those who look for it among the details of a result.
+    """
+
+    kind: ClassVar[str] = ""
+
+    @property
+    def smooth_film(self) -> EHLResult | None:
+        """The film of smooth surfaces, on its own nodes; None: the model solved none."""
+        return None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AtInputs:
+    """f of a point at other inputs, from where it is solved.
+
+    ``middle``: f at its own inputs, as the others are compared with it; ``coefficient``: f of a scene that differs in
+    inputs only, which raises `ConvergenceError`; ``may_run_in_processes``: whether it may be sent to other processes.
+    """
+
+    middle: float
+    coefficient: Callable[[Scene], float]
+    may_run_in_processes: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelAnswer:
+    """What a model says of one operating point on its sample: numbers, their errors, warnings, fields.
+
+    Attributes
+    ----------
+    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``, ``speed`` and, where f_b
+        has a range, ``contact_load``; others that are omitted are NaN
+    numerical : relative error of f by solver and grids, an estimate that the interval takes as a bound at 95 %
+    sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
+    model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
+    by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
+    parts_of_model : what the model-form error consists of, each with its cause; (): not known
+    accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
+    narrows_numerical : what narrows ``numerical``, as text
+    most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
+    not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
+        (section.key, one of `lubfric.scene.inputs_not_given`); no part of ``model_error``
+    errors : relative errors of the numbers, by name: of the sample the standard error, with ``numerical`` or what it is of
+        that number; the model-form error is not included
+    why_no_error, reasons : why an error is not known: of those not in ``errors`` whose number is neither NaN nor 0, and of
+        some by name
+    length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
+    notes : remarks on these errors
+    report, decision : of the solve; what was modelled
+    violations : limits of the model that are exceeded
+    recommendation : what to do where the numerical error exceeds the tolerance
+    fields : of the solve; None if there are none
+    fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
+    details : what the model keeps of its solve, for those who know it
+    at_inputs : makes what solves f again at other inputs; None: the model cannot
+    change_without_solve : returns the relative change of f at an end of the range of an input, from its name, the number
+        of the end (0 or 1) and the scene there, if the solution shows it; None: it has to be solved
+    """
+
+    numbers: dict[str, float]
+    numerical: float
+    sampling_error: StandardError
+    model_error: tuple[float, float]
+    report: Report
+    decision: Decision
+    by_limit: float = 0.0
+    parts_of_model: tuple[ModelErrorPart, ...] = ()
+    accepts_model_error: bool = False
+    narrows_numerical: str = REDUCED_BY_TOLERANCE
+    most_rolling_ratio: float = 2.0
+    not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
+    errors: dict[str, float] = field(default_factory=dict)
+    why_no_error: str = "not known"
+    reasons: dict[str, str] = field(default_factory=dict)
+    length: float = math.nan
+    effective_contacts: float = math.nan
+    area_needed: float = 1.0
+    notes: tuple[str, ...] = ()
+    violations: tuple[Violation, ...] = ()
+    recommendation: str = "a larger numerics.tolerance"
+    fields: ContactFields | None = None
+    fine_fields: Callable[[], ContactFields] | None = None
+    details: ModelDetails | None = None
+    at_inputs: Callable[[], AtInputs] | None = None
+    change_without_solve: Callable[[str, int, Scene], float | None] = lambda name, number, end: None
+
+    @property
+    def error_of_model_alone(self) -> float:
+        """Relative error of f by the model at 95 %, the larger of both sides, without what an unknown input adds."""
+        alone = [part for part in self.parts_of_model if not part.is_of_input]
+        return error_of_parts(alone) if alone else max(self.model_error)

@@ -1,0 +1,61 @@
+"""What a model will take at one operating point, estimated before anything is solved."""
+
+import math
+from dataclasses import dataclass
+
+# Whether asperities touch under an expected film, in words (`WorkEstimate.asperities`).
+ALL_TOUCH = "touching"
+FEW_TOUCH = "none or a few summits"
+NONE_TOUCHES = "none"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SharedWork:
+    """Work that points have in common, and that the first of them does.
+
+    Attributes
+    ----------
+    what : its name: work of one name is done once
+    seconds : processor time [s]
+    is_of_surface_alone : whether it serves other speeds, lubricants and tolerances on the same surface as well (as in
+        `lubfric.models.shared.memo.Key`); else all points of one scene
+    """
+
+    what: str
+    seconds: float
+    is_of_surface_alone: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorkEstimate:
+    """What a model will take at one operating point, from closed forms and to an order of magnitude.
+
+    Attributes
+    ----------
+    strips : number of strips that the tolerances need; 0: the model is not asked
+    seconds : processor time [s] of all of it, beyond that of the cheaper models
+    has_answer : whether the model is expected to have an answer of its own (`Model.why_unable`)
+    waits_for_next : whether "auto" spends them only where the next model is not solved (`SampleSolution.may_suffice`)
+    shared : the parts of these seconds that other points are spared
+    fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
+    strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
+        effect
+    longest_strip_seconds : the same if that strip has to be solved again on shorter cells
+    length : of the strips [m]; NaN: there is one patch
+    expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
+    expected_model_error : relative model-form error of f
+    asperities : whether asperities touch: `ALL_TOUCH`, `FEW_TOUCH` or `NONE_TOUCHES`
+    """
+
+    strips: int
+    seconds: float
+    has_answer: bool = True
+    waits_for_next: bool = False
+    shared: tuple[SharedWork, ...] = ()
+    fine_fields_seconds: float = 0.0
+    strip_seconds: float = 0.0
+    longest_strip_seconds: float = 0.0
+    length: float = math.nan
+    expected_sampling_error: float = math.nan
+    expected_model_error: float = math.nan
+    asperities: str = ""
