@@ -17,9 +17,10 @@ from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
 from ..models import AUTO, MODELS, model_named
+from ..models.load_sharing import flattening
 from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
 from ..scene import Scene
-from ..surface import Surface
+from ..surface import Surface, rms_slope
 from ..units import converted, printed, unit_for
 from .wear import NM, Wear, estimated_wear, worn_in
 
@@ -30,15 +31,20 @@ if TYPE_CHECKING:
 STEPS_OF_HALF_WIDTH = 2.0
 # Tolerance of the dry contact [-], at most: its overlaps become heights.
 PASS_TOLERANCE = 1e-5
-# Processor seconds of a contact of a pass, whatever its cells. This and the next two by 13 runs of `python -m
-# verification.campaigns.estimates`, which took .4 to 2 times as long.
-SOLVE_SECONDS = 1e-3
+# Processor seconds of an iteration of a contact of a pass, whatever its cells, and over its cells. These and the next three are
+# fitted to the counted work of 38 runs of `python -m verification.campaigns.estimates`; their time is 1.1 times as long.
+ITERATION_SECONDS = 1.5e-4
+ITERATION_CELL_SECONDS = 1.9e-8
 
-# Processor seconds of a contact over its cells.
-PASS_CELL_SECONDS = 4.5e-7
+# Iterations of such a contact between bodies that do not flatten [-]; 8 to 55 in all, by a power of one plus the flattening over
+# the Hertz strip in Sq, within a fifth.
+CONTACT_ITERATIONS = 9.4
+ITERATIONS_BY_FLATTENING = 0.32
 
-# Passes until nothing sinks: 1 to 3 were seen.
-USUAL_PASSES = 2
+# Passes beyond the first until nothing sinks, over E' times a quarter of the rms slope, the scale of the asperity pressures
+# (`solved_ends_of_hardness`), over the hardness [-]: none at .25, two at .7, five at 2.3.
+PASSES_BY_YIELDING = 2.2
+
 # Parameters of a map in the table of a running-in, and their units.
 OF_MAP = {"sq": "m", "sk": "m", "spk": "m", "svk": "m"}
 # Numbers of wear in that table, and their units.
@@ -377,8 +383,11 @@ def estimated_run_in(scene: Scene, *, distance: float = 0.0, wear_coefficient: f
     before = _whole(scene, None)
     operator = operator_under(before.heights, before.spacing, cylinder_of(scene), scene.numerics.workers)
     ends = 1 + 2 * sum(name == "bodies.hardness" for name, *_ in scene.ranges)
-    solve = SOLVE_SECONDS + PASS_CELL_SECONDS * math.prod(operator.shape)
-    seconds = USUAL_PASSES * len(_way(scene, before, None)) * solve
+    iterations = CONTACT_ITERATIONS * (1 + flattening(scene, max(before.sq, 1e-12))) ** ITERATIONS_BY_FLATTENING
+    solve = iterations * (ITERATION_SECONDS + ITERATION_CELL_SECONDS * math.prod(operator.shape))
+    yielding = scene.bodies.e_prime * rms_slope(before)[2] / 4 / scene.bodies.hardness
+    passes = 1 + PASSES_BY_YIELDING * yielding
+    seconds = passes * len(_way(scene, before, None)) * solve
     if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
         hardness = wear_of["hardness"][0]
         seconds += estimated_wear(scene, before, wear_of["distance"], wear_of["coefficient"], hardness)

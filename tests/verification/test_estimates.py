@@ -137,3 +137,15 @@ def test_seconds_on_a_slower_core_are_those_on_the_stated_one(monkeypatch):
     moments = iter([100.0, 108.0])
     monkeypatch.setattr("verification.pace._pair", lambda: next(pairs))
     assert paced(lambda: "answer", clock=lambda: next(moments)) == ("answer", pytest.approx(2.0))
+
+
+def test_passes_until_nothing_yields_are_estimated_by_the_hardness():
+    """Soft asperities take more passes than hard ones: the ratio of both estimates is within two of that of the counted work."""
+    estimates, work = [], []
+    for hardness in (6e8, 2e9):
+        scene = PATCH.with_(bodies={"hardness": hardness}, contact={"shape": (48, 48)})
+        with limited_work(math.inf) as meter:
+            lubfric.run_in(scene)
+        estimates.append(estimated_run_in(scene))
+        work.append(meter.spent)
+    assert 0.5 < estimates[0] / estimates[1] / (work[0] / work[1]) < 2.0

@@ -13,7 +13,7 @@ from .balance import Balance, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error, why_moment_unknown
-from .estimated_work import expected_gap, expected_model_error
+from .estimated_work import expected_gap, expected_model_error, flattening
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
