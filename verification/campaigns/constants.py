@@ -1,9 +1,10 @@
-"""``python -m verification.campaigns.constants [NAME ...]``: what the constants of the estimate decide.
+"""``python -m verification.campaigns.constants [NAME ...]``: what the constants of the solvers decide.
 
 Every number of a module of `ROOMS` (or those whose name begins with NAME) is halved and doubled, alone, and the points
-of `points` are solved again. A row says by how much f, the width of its 95 % interval and the processor time change, at
-most. A constant that moves f by no more than its stated error is a matter of cost or of caution; one that moves it by
-more needs a source of its own, beside it in the code.
+of `points` are solved again. A row of ``constants.csv`` says by how much f, the width of its 95 % interval and the
+counted work change, at most. A constant that moves f by no more than its stated error is a matter of cost or of caution;
+one that moves it by more needs a source of its own, beside it in the code. Rows that are there stay; remove them to
+measure them again.
 """
 
 import ast
@@ -11,59 +12,156 @@ import importlib
 import math
 import pkgutil
 import sys
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import lubfric
+from lubfric._base import limited_work
+from lubfric.scene import Harmonic, Ramp, Transient
+
+from . import table_file
 
 ROOMS = (
+    "lubfric.film",
+    "lubfric.contact",
+    "lubfric.time",
     "lubfric.samples",
     "lubfric.estimate",
     "lubfric.models.shared",
     "lubfric.models.load_sharing",
+    "lubfric.models.quick",
     "lubfric.models.deterministic",
 )
 
-# The room whose constants are tried on points of its own.
+# The rooms whose constants are tried on points of their own.
+FILM = "lubfric.film"
+CONTACT = "lubfric.contact"
+TIME = "lubfric.time"
+QUICK = "lubfric.models.quick"
 DETERMINISTIC = "lubfric.models.deterministic"
 
-# Its modules that a point at rest does not reach.
-MOVING = ("moving", "moving_strip", "time_and_place", "summits")
+# Modules of `DETERMINISTIC` that a point at rest does not reach.
+MOVING = ("moving", "moving_strip", "time_and_place", "summits", "cells_in_motion", "rough_bodies")
+
+# Modules whose numbers estimate the work of a point, and move no result: `verification.campaigns.estimates` compares them.
+ESTIMATES = ("estimated_work", "estimated", "expected_steps", "expected_friction", "counted_work")
 
 # Factors on a constant.
 FACTORS = (0.5, 2.0)
 
+# The table, and the columns of it.
+TABLE = Path(__file__).with_name("constants.csv")
+COLUMNS = ("module", "constant", "value", "factor", "f", "at", "interval", "work", "error")
 
-def points(module: str = "") -> dict[str, tuple[lubfric.Scene, float]]:
+# Digits of the changes.
+DIGITS = 2
+
+# f, the width of its interval over f, and the counted work [s] of a point.
+Numbers = tuple[float, float, float]
+
+
+def points(module: str) -> dict[str, Callable[[], Numbers]]:
     """Return the points that are solved for a constant of ``module``, by name: light and heavy contact, strips and a
     patch, at rest and moving."""
+    room, _, last = module.rpartition(".")
     paper = lubfric.load_scene("paper")
-    if module.rpartition(".")[2] in MOVING:
+    load_sharing = paper.with_(numerics={"model": "paper"})
+    patch = load_sharing.with_(numerics={"sampling": "patch"})
+    mixed = {"mixed": _at(load_sharing, 0.03)}
+    if room == FILM:
+        heavy = load_sharing.with_(
+            bodies={"radius": 10e-3, "load": 1500.0}, lubricant={"viscosity": 0.05, "eyring_stress": 5e6}
+        )
+        hot = heavy.with_(
+            lubricant={
+                "temperature_coefficient": 0.04,
+                "temperature": 313.0,
+                "shear_modulus": 1e8,
+            },
+            motion={"slide_roll_ratio": 0.1},
+        )
+        return mixed | {
+            "light": _at(load_sharing, 1.0),
+            "starved": _at(load_sharing.with_(lubricant={"inlet_length": 6e-5}), 0.5),
+            "fed": _at(heavy.with_(lubricant={"inlet_film": 3e-7}), 5.0),
+            "heavy": _at(heavy, 3.0),
+            "hot": _at(hot, 3.0),
+            "Carreau": _at(load_sharing.with_(lubricant={"carreau": [1e5, 0.6]}), 0.5),
+        }
+    if room == CONTACT:
+        flat = lubfric.load_scene("flat").with_(contact={"shape": (256, 256)})
+        return mixed | {
+            "contact": _at(load_sharing, 0.001),
+            "patch": _at(patch, 0.03),
+            "flat": _at(flat, 0.03),
+            "flat, thin": _at(flat, 0.003),
+        }
+    if room == TIME:
+        swing = Transient(duration=0.02, speed=Harmonic(amplitude=0.03, frequency=50.0))
+        ramp = Transient(duration=1e-4, outputs=4, speed=Ramp(start=0.03, end=0.02, until=1e-4))
+        loose = patch.with_(numerics={"tolerance": 0.05, "accept": True})
+        small = {"shape": (64, 64), "spacing": 1.4e-6}
+        reversing = loose.with_(transient=swing)
+        slowed = loose.with_(numerics={"model": "deterministic"}, contact=small, transient=ramp)
+        return {"reversing": _in_time(reversing), "slowed": _in_time(slowed)}
+    if room == DETERMINISTIC and last in MOVING:
         rolling = paper.with_(
             bodies={"radius": 6e-3, "width": 10e-3, "load": 500.0, "boundary_film": 2e-8, "hardness": None},
-            lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 16e-9, "eyring_stress": 5e6},
+            lubricant={
+                "viscosity": 0.02,
+                "pressure_viscosity_coefficient": 16e-9,
+                "eyring_stress": [5e6, 3e6, 8e6],
+            },
             motion={"slide_roll_ratio": 0.1},
             surface={"sq": 1.6e-7, "correlation_length": 20e-6, "acf": "gaussian"},
             contact={"shape": (64, 32), "spacing": 5e-6},
             numerics={"model": "deterministic", "sampling_tolerance": 0.05},
         )
-        ends = rolling.with_(lubricant={"eyring_stress": [5e6, 3e6, 8e6]})
-        return {"rolling": (ends, 1.0)}
-    if module.startswith(DETERMINISTIC):
+        return {"rolling": _at(rolling, 1.0)}
+    if room == DETERMINISTIC:
         alone = paper.with_(numerics={"model": "deterministic"})
-        patch = alone.with_(numerics={"sampling": "patch"})
-        return {"contact": (alone, 0.003), "mixed": (alone, 0.03), "patch": (patch, 0.03)}
-    strips = paper.with_(numerics={"model": "paper"})
-    return {
-        "contact": (strips, 0.001),
-        "mixed": (strips, 0.03),
-        "lift-off": (strips, 0.1),
-        "calibrated": (paper.with_(numerics={"model": "quick"}), 0.03),
-        "rolling": (paper.with_(numerics={"model": "quick"}, motion={"slide_roll_ratio": 0.1}), 0.03),
-        "patch": (strips.with_(numerics={"sampling": "patch"}), 0.03),
-    }
+        map_alone = alone.with_(numerics={"sampling": "patch"})
+        return {"contact": _at(alone, 0.003), "mixed": _at(alone, 0.03), "patch": _at(map_alone, 0.03)}
+    quick = paper.with_(numerics={"model": "quick"})
+    calibrated = {"calibrated": _at(quick, 0.03)}
+    if room == QUICK:
+        return calibrated | {"rolling": _at(quick.with_(motion={"slide_roll_ratio": 0.1}), 0.03)}
+    return (
+        mixed
+        | calibrated
+        | {
+            "contact": _at(load_sharing, 0.001),
+            "lift-off": _at(load_sharing, 0.1),
+            "patch": _at(patch, 0.03),
+        }
+    )
+
+
+def _at(scene: lubfric.Scene, speed: float) -> Callable[[], Numbers]:
+    """Return what solves a steady point."""
+
+    def solved() -> Numbers:
+        with limited_work(math.inf) as meter:
+            result = lubfric.friction(scene, speed, raise_on_failure=False)
+        low, high = result.uncertainty.interval
+        return result.coefficient, (high - low) / result.coefficient, meter.spent
+
+    return solved
+
+
+def _in_time(scene: lubfric.Scene) -> Callable[[], Numbers]:
+    """Return what solves a run in time, whose f is the mean."""
+
+    def solved() -> Numbers:
+        with limited_work(math.inf) as meter:
+            run = lubfric.transient(scene)
+        mean = run.average()
+        low, high = mean.interval
+        return mean.coefficient, (high - low) / mean.coefficient, meter.spent
+
+    return solved
 
 
 def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tuple[float, ...]]]:
@@ -71,6 +169,8 @@ def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tup
     for room in ROOMS:
         package = importlib.import_module(room)
         for info in pkgutil.iter_modules(package.__path__, f"{room}."):
+            if info.name.rpartition(".")[2] in ESTIMATES:
+                continue
             for name, value in numbers_of(importlib.import_module(info.name)):
                 if f"{info.name}.{name}".startswith(prefixes):
                     yield info.name, name, value
@@ -111,10 +211,22 @@ class Changed:
     def __enter__(self) -> None:
         for holder in self.holders:
             setattr(holder, self.name, self.value)
+        _forget()
 
     def __exit__(self, *exception: object) -> None:
         for holder, value in zip(self.holders, self.before, strict=True):
             setattr(holder, self.name, value)
+        _forget()
+
+
+def _forget() -> None:
+    """Clear the caches of all functions of lubfric: what they remember was made with another constant."""
+    for name, module in list(sys.modules.items()):
+        if name.startswith("lubfric"):
+            for function in vars(module).values():
+                clear = getattr(function, "cache_clear", None)
+                if clear is not None:
+                    clear()
 
 
 def _imports(holder: object, module: str, name: str) -> bool:
@@ -130,46 +242,53 @@ def _imports(holder: object, module: str, name: str) -> bool:
     return False
 
 
-def solve(module: str = "") -> dict[str, tuple[float, float, float]]:
-    """Return f, the width of its interval over f, and the processor time [s] of all `points` of ``module``."""
+def solve(module: str) -> dict[str, Numbers]:
+    """Return the numbers of all `points` of ``module``; NaN where one has no solution."""
     results = {}
-    for name, (scene, speed) in points(module).items():
-        begun = time.process_time()
+    for name, solved in points(module).items():
         try:
-            result = lubfric.friction(scene, speed, raise_on_failure=False)
-            low, high = result.uncertainty.interval
-            numbers = (result.coefficient, (high - low) / result.coefficient)
+            results[name] = solved()
         except lubfric.LubfricError:
-            numbers = (math.nan, math.nan)
-        results[name] = (*numbers, time.process_time() - begun)
+            results[name] = (math.nan, math.nan, math.nan)
     return results
 
 
+def row_of(base: dict[str, Numbers], module: str, name: str, changed: Any) -> dict[str, Any]:
+    """Return the columns of the changes from ``base`` where the constant ``name`` has the value ``changed``; an
+    ``error`` where nothing allows that value."""
+    try:
+        with Changed(module, name, changed):
+            rows = solve(module)
+    except Exception as error:  # noqa: BLE001  # a value that nothing allows is a result here
+        return {"error": f"{type(error).__name__}: {str(error)[:60]}"}
+    changes = {at: row[0] / base[at][0] - 1 for at, row in rows.items()}
+    at = max(changes, key=lambda point: math.inf if math.isnan(changes[point]) else abs(changes[point]))
+    widths = [rows[point][1] / base[point][1] - 1 for point in rows if not math.isnan(base[point][1])]
+    return {
+        "f": changes[at],
+        "at": at,
+        "interval": max(widths, key=abs) if widths else None,
+        "work": sum(row[2] for row in rows.values()) / sum(row[2] for row in base.values()) - 1,
+    }
+
+
 def main() -> None:
-    """Print a row for every constant and factor."""
+    """Append a row for every constant and factor that the table lacks."""
     prefixes = tuple(sys.argv[1:]) or ("",)
-    bases: dict[tuple[str, ...], dict[str, tuple[float, float, float]]] = {}
-    print("constant, factor: largest change of f [%] and where, of the width of the interval [%], processor time [%]")
+    known = {("lubfric." + row["module"], row["constant"], float(row["factor"])) for row in table_file.rows(TABLE)}
+    bases: dict[tuple[str, ...], dict[str, Numbers]] = {}
     for module, name, value in constants(prefixes):
         room = tuple(points(module))
-        if room not in bases:
-            solve(module)  # imports and caches
-            bases[room] = solve(module)
-        base = bases[room]
-        work = sum(row[2] for row in base.values())
         for factor in FACTORS:
-            try:
-                with Changed(module, name, scaled(value, factor)):
-                    rows = solve(module)
-            except Exception as error:  # noqa: BLE001  # a value that nothing allows is a result here
-                print(f"{module}.{name} = {value} x {factor}: {type(error).__name__}: {str(error)[:60]}", flush=True)
+            if (module, name, factor) in known:
                 continue
-            changes = {at: row[0] / base[at][0] - 1 for at, row in rows.items()}
-            at = max(changes, key=lambda point: math.inf if math.isnan(changes[point]) else abs(changes[point]))
-            width = max((rows[point][1] / base[point][1] - 1 for point in rows), key=abs)
-            spent = sum(row[2] for row in rows.values()) / work - 1
-            words = f"f {100 * changes[at]:+.2g} % ({at}), interval {100 * width:+.2g} %, time {100 * spent:+.0f} %"
-            print(f"{module}.{name} = {value} x {factor}: {words}", flush=True)
+            if room not in bases:
+                solve(module)  # imports and caches
+                bases[room] = solve(module)
+            row = {"module": module.removeprefix("lubfric."), "constant": name, "value": str(value), "factor": factor}
+            row |= row_of(bases[room], module, name, scaled(value, factor))
+            table_file.append(TABLE, COLUMNS, row, DIGITS)
+            print(row, flush=True)
 
 
 if __name__ == "__main__":
