@@ -13,7 +13,8 @@ from .asperity_find import FINDERS
 from .problem import on_grid
 
 DEFINITIONS = tuple(FINDERS)
-# Approaches [-] over the height range at which the load is looked at, each 25 % longer, down to the deepest valley.
+# Approaches [-] over the height range at which the load is looked at, each 25 % longer, down to the deepest valley. A
+# choice: fewer may miss a load that falls again between two of them.
 TRIAL_APPROACHES = np.geomspace(1e-5, 1.0, 53)
 
 

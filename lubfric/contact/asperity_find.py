@@ -9,7 +9,7 @@ import numpy as np
 
 from .._base import BoolArray, FloatArray, IntArray
 
-# Steps [cells] to one of each pair of opposite neighbours.
+# Steps [cells] to one of each pair of opposite neighbours. By definition of a neighbour.
 AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))
 
 

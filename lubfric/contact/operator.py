@@ -21,9 +21,10 @@ from .kernels import line_coefficients, love_coefficients, semiperiodic_coeffici
 
 # What an axis may be.
 AXIS_KINDS = ("periodic", "free")
-# Waves of a block of padded columns, which stays in the cache.
+# Waves of a block of padded columns, which stays in the cache. A choice, for speed alone.
 PADDED = 32768
-# Coefficient of a distant cell over that of the cell itself [-] that is left out, by precision.
+# Coefficient of a distant cell over that of the cell itself [-] that is left out, by precision. Chosen for the rounding
+# error of each.
 NEGLIGIBLE_COEFFICIENT = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}
 
 

@@ -16,13 +16,14 @@ from .operator import HalfSpace, half_space
 # Cells along an axis below which it is not halved. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 LEAST_HALVED_CELLS = 24
-# Tolerance of a coarse grid [-], which only gives a start.
+# Tolerance of a coarse grid [-], which only gives a start. A choice: less costs time on the coarse grid, more on the
+# fine one.
 START_TOLERANCE = 1e-2
-# Iterations on a coarse grid, at most.
+# Iterations on a coarse grid, at most. A choice: a bound.
 COARSE_ITERATIONS = 60
-# Newton steps for a shift before every other one halves the bracket.
+# Newton steps for a shift before every other one halves the bracket. A choice: it changes the time alone.
 NEWTON = 12
-# Pressure over E' [-] that no start has.
+# Pressure over E' [-] that no start has. A choice: a start beyond it is a slip of units.
 ABSURD = 1e6
 
 

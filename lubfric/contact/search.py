@@ -35,19 +35,22 @@ LEAST_ITERATION = 1.5e-4
 # Length of the first step over that of an exact preconditioner [-]. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 FIRST_PACE = 0.35
-# Relative error of the load in the trials of a round [-]; less in later ones, in proportion to the residual.
+# Relative error of the load in the trials of a round [-]; less in later ones, in proportion to the residual. A choice,
+# far below the tolerance of a contact.
 LOAD_ERROR = 1e-6
 # Power of the relative length of a step in the next pace [-]. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 LEARNING = 0.3
-# Least and greatest part of the way to the trial [-].
+# Least and greatest part of the way to the trial [-]. A choice: less damps more, more may overshoot.
 STEP_PARTS = (0.3, 2.0)
-# Shifts of a trial, at most, to make it carry the load.
+# Shifts of a trial, at most, to make it carry the load. A choice: a bound; less leaves an error of the load to the next
+# trial.
 SHIFTS = 12
 # Iterations without a tenth off the best residual after which a round ends. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 ROUND_PATIENCE = 8
-# Load over hardness times free cells [-] above which the exact search frees more cells.
+# Load over hardness times free cells [-] above which the exact search frees more cells. A choice: rounding is below
+# what it leaves.
 CAPACITY = 0.999
 
 

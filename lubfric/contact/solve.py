@@ -12,12 +12,14 @@ from .problem import ContactProblem, ContactStart, TrialContact, contact_problem
 from .refinement import ContactResult, SearchResult, contact_result, evaluate, refine, trial_contact
 from .search import FIRST_PACE
 
-# Load over that of a start [-] beyond which new asperity contacts matter more than the old ones.
+# Load over that of a start [-] beyond which new asperity contacts matter more than the old ones. A choice: it decides
+# the start alone.
 MOST_LOAD_OVER_START = 2.0
 # Change of the load over that of a start [-] up to which pressure and displacement are scaled, which takes no
 # convolution. Halved and doubled by `python -m verification.campaigns.benchmarks.contact_constants`.
 LARGEST_SCALING = 0.2
-# Mean pressure over E' height/spacing [-] that flattens any surface: 1.1 would do for a periodic ripple.
+# Mean pressure over E' height/spacing [-] that flattens any surface: 1.1 would do for a periodic ripple. A choice: it
+# bounds a search.
 FLATTENED = 10.0
 
 

@@ -22,7 +22,8 @@ from .._base import validate
 from .cylinder import LoadedCylinder
 from .operator import HalfSpace
 
-# Turn [-] by which the windows shift from step to step, so that no two steps coincide: the golden ratio.
+# Turn [-] by which the windows shift from step to step, so that no two steps coincide: the golden ratio. By definition
+# of that ratio; its multiples fill a turn most evenly.
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 

@@ -19,13 +19,15 @@ from .problem import FilmProblem, film_problem
 from .reynolds import FilmSolution
 from .start import FilmState, solution_state
 
-# Flow over the flooded one [-] below which the flow of a starved film falls by steps.
+# Flow over the flooded one [-] below which the flow of a starved film falls by steps. A choice: less saves films, and
+# may fail.
 HALF = 0.5
-# Flow of a step over that of the one before [-].
+# Flow of a step over that of the one before [-]. A choice: less needs fewer films, and may lose the way.
 LESS = 0.6
-# Effort of the films on the way.
+# Effort of the films on the way. A choice: that of two grids (`TWO_GRIDS_TOLERANCE`), for a start.
 EFFORT_ON_THE_WAY = Effort(5e-3)
-# Distance of an inlet over the length on which a flooded film builds up [-] that counts as flooded.
+# Distance of an inlet over the length on which a flooded film builds up [-] that counts as flooded. A choice, far
+# beyond the distance of 1 that fills the inlet.
 FURTHEST = 300.0
 
 

@@ -11,7 +11,7 @@ from ..errors import Report
 from .hertz import HasLineContact, LineContact
 from .start import FilmState
 
-# Neighbouring nodes that act as one line force far away.
+# Neighbouring nodes that act as one line force far away. A choice: more is faster and less exact.
 LUMP = 6
 
 

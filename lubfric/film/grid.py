@@ -15,19 +15,21 @@ import numpy as np
 
 from .._base import FloatArray
 
-# Distance of the inlet over sqrt(2 R h) [-], beyond three half-widths.
+# Distance of the inlet over sqrt(2 R h) [-], beyond three half-widths. A choice: further costs cells, nearer thins the
+# film (`EHLResult` estimates by how much).
 FAR_INLET = 30.0
-# Smallest cell where the pressure rises over the length of the rise [-].
+# Smallest cell where the pressure rises over the length of the rise [-]. The five sizes and growths of cells were chosen
+# for the least error of the film at 192 cells against 1536 (`node_positions`).
 RISE_CELL = 0.3
-# Growth of the cells with the distance from there [-].
+# Growth of the cells with the distance from there [-]; chosen so.
 RISE_GROWTH = 0.35
-# Smallest cell at the rupture point, where film and pressure spike are, over the length there [-].
+# Smallest cell at the rupture point, where film and pressure spike are, over the length there [-]; chosen so.
 RUPTURE_CELL = 0.1
-# Growth of the cells with the distance from the rupture point [-].
+# Growth of the cells with the distance from the rupture point [-]; chosen so.
 RUPTURE_GROWTH = 0.28
-# Nodes of a face in third-order upwind interpolation.
+# Nodes of a face in third-order upwind interpolation. By definition of that scheme.
 UPWIND = (-1, 0, 1)
-# Cells spread evenly over the contact, relative to the others [-].
+# Cells spread evenly over the contact, relative to the others [-]; chosen so.
 EVEN_CELLS_WEIGHT = 1.2
 
 

@@ -48,27 +48,31 @@ from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_
 
 # Péclet number u b rho c/(2 k) [-] from which a heat source moves fast (Jaeger 1942).
 FAST_PECLET_NUMBER = 5.0
-# Nodes of the flash temperature, at most.
+# Nodes of the flash temperature, at most. A choice: the work grows with its cube.
 FLASH_NODES = 257
-# Iterations of film and surface temperature, at most.
+# Iterations of film and surface temperature, at most. A choice: a bound.
 TEMPERATURE_ITERATIONS = 40
-# Step [K] of a difference over the temperature.
+# Step [K] of a difference over the temperature. A choice: far below the warming over which the viscosity bends, far
+# above rounding.
 DIFFERENCE_STEP = 0.05
-# Change of the temperatures over the largest rise [-] at which the iteration ends.
+# Change of the temperatures over the largest rise [-] at which the iteration ends. A choice, far below all other
+# errors.
 TEMPERATURE_TOLERANCE = 1e-6
-# |S| [-] above which the factors of the inlet are used outside the range they were made for.
+# |S| [-] above which the factors of the inlet are used outside the range they were made for. A choice: both were fitted
+# near rolling, and differ the more the larger S.
 MOST_SLIDE_ROLL_RATIO_OF_INLET = 0.5
-# L [-] above which neither factor is supported by the solutions it was fitted to.
+# L [-] above which neither factor is supported by the solutions it was fitted to. A choice.
 MOST_THERMAL_LOADING = 20.0
-# Temperature [K] at which the viscosity of Roelands' law is infinite.
+# Temperature [K] at which the viscosity of Roelands' law is infinite. By definition of that law (Roelands 1966).
 ROELANDS_ZERO = 138.0
-# Least heated stress over the Newtonian one [-] from which the root is sought.
+# Least heated stress over the Newtonian one [-] from which the root is sought. A choice: no film is heated so much.
 LEAST_HEATED_STRESS = 1e-14
-# Least stress [Pa] from which the root is sought, where it is lower.
+# Least stress [Pa] from which the root is sought, where it is lower. A choice: far below any stress that matters.
 LEAST_STRESS = 1e-3
-# Largest Newtonian stress [Pa] that a number holds.
+# Largest Newtonian stress [Pa] that a number holds. A choice, below the largest number of double precision, 1.8e308.
 MOST_STRESS = 1e300
-# Halvings of the logarithm of the stress: to 1e-12 and less.
+# Halvings of the logarithm of the stress: to 1e-12 and less. As many as the interval of ln of the stress needs: a
+# choice of accuracy.
 STRESS_HALVINGS = 64
 
 

@@ -19,7 +19,8 @@ from ..errors import InputError
 from ..oil import Lubricant
 from . import formulas
 
-# Smallest film of a rigid cylinder over eta0 |U| R/w [-], isoviscous, Swift-Stieber rupture (exact).
+# Smallest film of a rigid cylinder over eta0 |U| R/w [-], isoviscous, Swift-Stieber rupture (exact): it follows from
+# Reynolds' equation for the parabola for the cylinder.
 RIGID_FILM_FACTOR = 4.894968493913369
 
 

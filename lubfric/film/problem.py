@@ -25,7 +25,8 @@ from .formulas import moes_film, starved_inlet, starved_share
 from .hertz import LineContact
 from .thinning import thinned
 
-# Film over Moes' film [-] above which a guess of the inlet makes no sense.
+# Film over Moes' film [-] above which a guess of the inlet makes no sense. A choice, near 1, where the inverse of the
+# law is infinite.
 MOST_STARVED = 0.995
 
 

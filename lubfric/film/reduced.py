@@ -11,9 +11,9 @@ import numpy as np
 from .._base import FloatArray
 from ..oil import Lubricant, log_viscosity_ratio
 
-# Points of the table of q(p).
+# Points of the table of q(p). A choice, made once for an oil.
 TABLE = 4000
-# alpha p [-] of its last point.
+# alpha p [-] of its last point. A choice, far above any pressure of a contact: only guesses reach it.
 LAST_ALPHA_P = 1e4
 
 

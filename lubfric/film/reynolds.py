@@ -29,9 +29,10 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import FilmProblem
 
-# Largest change of ln(eta) in one step [-].
+# Largest change of ln(eta) in one step [-]. A choice: more saves steps where all goes well, and may fail.
 VISCOSITY_STEP = 3.0
-# Largest share of the film, or of the flux, that one step may remove [-].
+# Largest share of the film, or of the flux, that one step may remove [-]. A choice: more saves steps where all goes
+# well, and may fail.
 MOST_FILM_STEP = 0.7
 # Counted work [s of a usual core] of a Newton step, whatever its cells: 1.4 to 1.6e-4 was measured on 48 and 96 cells.
 STEP_WORK = 1.4e-4

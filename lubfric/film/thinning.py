@@ -20,13 +20,15 @@ import numpy as np
 from .._base import FloatArray
 from ..oil import Eyring, ShearLaw
 
+# Gauss-Legendre rule of 12 points on -1 to 1, by definition of a mean with weights that sum to 1; 12 is a choice.
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(12)
 GAUSS_WEIGHTS = GAUSS_WEIGHTS / 2
-# b [-] below which the series is used.
+# b [-] below which the series is used. A choice: there the series is exact to 1e-10, and the quotient loses digits
+# below.
 SMALL_B = 1e-2
-# Steps of Newton's method for a, at most.
+# Steps of Newton's method for a, at most. A choice: a bound.
 MOST_THINNING_STEPS = 40
-# Relative step [-] at which it ends.
+# Relative step [-] at which it ends. A choice, near rounding.
 LAST_STEP = 1e-13
 
 

@@ -26,7 +26,7 @@ ROELANDS_LOG_VISCOSITY = 9.67
 CARRIED_AT_REST = 5e6
 # Rise of `CARRIED_AT_REST` with the pressure [Pa/Pa]; measured limiting stresses have 0.03 to 0.1.
 CARRIED = 0.12
-# Pressure [Pa] at which no oil flows.
+# Pressure [Pa] at which no oil flows. A choice: laws of viscosity are extrapolated ten times beyond measurements there.
 NO_LIQUID = 1e10
 
 

@@ -11,6 +11,8 @@ from .pressure import MeasuredCoefficients
 from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
 # Temperatures of the standard viscosities [K].
+
+# Temperatures of the viscosities of ISO 3448 and ASTM D2270 [K].
 AT_40 = 40 + CELSIUS
 AT_100 = 100 + CELSIUS
 GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s], the grade holds +-10 % of it

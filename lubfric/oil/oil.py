@@ -15,11 +15,11 @@ from ..errors import InputError
 from .pressure import BASES, Estimate, MeasuredCoefficients, gold, so_klaus
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
 
-# Temperature of a stated density [K].
+# Temperature of a stated density [K]. The reference of ISO 5024, as in data sheets.
 AT_15 = 15 + CELSIUS
 # Estimates of the pressure-viscosity coefficient.
 ESTIMATES = ("so-klaus", "gold")
-# Step of a central difference [K].
+# Step of a central difference [K]. A choice: its error is of second order, and far above rounding.
 TEMPERATURE_STEP = 0.05
 
 

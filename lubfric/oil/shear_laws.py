@@ -19,7 +19,7 @@ from ..errors import InputError
 
 # Activation temperature of the limiting stress [K] (Houpert, Flamand, Berthe 1981).
 LIMIT_ACTIVATION = 585.0
-# s [-] below which a fluid is Newtonian.
+# s [-] below which a fluid is Newtonian. A choice: s/f(s) is 1 to rounding there.
 NEWTONIAN_S = 1e-6
 
 

@@ -11,15 +11,15 @@ from ..errors import InputError
 
 # Constant of ASTM D341 [mm²/s]. Older charts have 0.8, which moves 68 / 8.6 mm²/s at 60 °C from 28.49 to 28.58.
 CONSTANT = 0.7
-# 0 °C in K.
+# 0 °C in K. By definition (SI).
 CELSIUS = 273.15
-# Temperatures [K] that are taken for those of an oil.
+# Temperatures [K] that are taken for those of an oil. A choice: a number below is one in °C.
 RANGE = (200.0, 600.0)
 # Viscosity at 100 °C [m²/s] below which the index is not defined (ASTM D2270).
 LEAST_VISCOSITY_AT_100 = 2e-6
 # Constant of procedure B of ASTM D2270 [-].
 ASTM_D2270_B = 0.00715
-# Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250.
+# Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250. A choice.
 MOST_INDEX = 400.0
 with (resources.files(__package__) / "d2270.txt").open() as _file:
     AT_100, LOW, HIGH = np.loadtxt(_file, unpack=True)  # mm²/s: at 100 °C; L and H of the standard

@@ -19,11 +19,13 @@ LENGTH_UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "�
 UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm", "m": "m"}
 UNIT_WORDS |= {"millimeter": "mm", "millimeters": "mm", "micrometer": "um", "micrometers": "um", "nanometer": "nm"}
 UNIT_WORDS |= {"nanometers": "nm", "metre": "m", "meter": "m", "meters": "m", "cm": "cm", "in": "in", "inch": "in"}
-LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254}  # m
-LONGEST_STATEMENT = 400  # characters of a line that is read as statements; a longer one is a title
-SAME_LENGTH = (
-    0.01  # relative difference up to which two statements of one length agree (they are printed to few digits)
-)
+
+# m of a unit: by definition (SI; the inch since 1959).
+LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254}
+
+LONGEST_STATEMENT = 400  # characters of a line that is read as statements; a longer one is a title: a choice
+# Relative difference up to which two statements of one length agree. A choice: they are printed to few digits.
+SAME_LENGTH = 0.01
 
 # Gwyddion translates the words of its text export; SurfaceTopography has the same list.
 WIDTH_WORDS = {"width", "šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "ширина"}

@@ -19,8 +19,8 @@ from .labels import check_labels
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-HIGHEST = 1e3  # m, of any height
-LEAST_CELLS = 5  # of the nesting index of a filter: fewer do not resolve the weights
+HIGHEST = 1e3  # m, of any height; a choice: no surface has it, a slip of units may
+LEAST_CELLS = 5  # of the nesting index of a filter: fewer do not resolve the weights, a choice
 
 
 @dataclass(frozen=True, eq=False, repr=False)

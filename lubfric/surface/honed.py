@@ -18,6 +18,8 @@ from .._base import validate
 from ..errors import InputError
 from .bearing import bearing
 
+# Of a usual cylinder liner after plateau honing, not of one measured part: a choice each, which the parameters Sk, Spk
+# and Svk that a user gives correct. The sizes are limits by choice: smaller maps and larger cells miss them.
 GROOVES = 0.2  # share of the area on which grooves are below the plateau: Smr2 near 80 %, as cylinder liners have it
 DEEPER = 5.0  # standard deviation of the grooves over that of the plateau, before both are scaled
 GROOVE_LENGTH_RATIO = 15.0  # correlation length along a groove over that across it

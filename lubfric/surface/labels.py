@@ -8,8 +8,8 @@ import numpy as np
 from ..errors import InputError
 from ..units import in_si
 
-# Relative difference of a step of the coordinates and the spacing from which they contradict each other [-]: coordinates
-# are often kept to six digits.
+# Relative difference of a step of the coordinates and the spacing from which they contradict each other [-]:
+# coordinates are often kept to six digits. A choice.
 LABEL_TOLERANCE = 1e-3
 
 METRES = ("", "m", "metre", "metres", "meter", "meters")

@@ -10,6 +10,7 @@ from ..units import worded
 from .header import LENGTH_UNITS, LENGTHS, Header
 from .points import grid_lines
 
+# How a table is told from a list of points: choices, between maps and lists of the programs in docs/inputs.md.
 PROFILE_LINES = 8  # lines from which a table of one or two columns is a profile
 POINT_LINES = 9  # lines from which a table of three columns may be a list of points (3 x 3)
 LONG_LIST = 30  # lines of three columns that cannot be a map

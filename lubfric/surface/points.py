@@ -5,6 +5,7 @@ import numpy as np
 from ..errors import InputError
 from .prepare import harmonic_fill
 
+# Choices, between the rounding of printed coordinates and the steps of a grid.
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
 NEXT_LINE_JITTERED = 0.3  # the same where the points lie up to `JITTER` off their lines, and single lines are missing
 FARTHEST_POINT = 1e9  # m

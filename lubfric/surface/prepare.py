@@ -7,22 +7,29 @@ import numpy as np
 
 from ..errors import InputError
 
-_PLANE = ((0, 0), (1, 0), (0, 1))  # powers of x and y
-FORM_POWERS = {  # the powers of each; of several sets the one that leaves least
+_PLANE = ((0, 0), (1, 0), (0, 1))  # powers of x and y of a mean plane, by definition
+# The powers of each form of the F-operation (ISO 25178-2); of several sets the one that leaves least.
+FORM_POWERS = {
     "plane": (_PLANE,),
     "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
     "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
 }
 BETTER = 0.9  # of Sq: a form that leaves less than that of another is worth its terms. A convention.
 MOST_MISSING = 0.5  # of the points of a map that may be filled. A convention
-LEFT_BY_FORM = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
-DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
-OUTLIER_LIMIT = 6.0  # robust deviations beyond which a point that stands alone is an outlier
-WINDOW = 5  # points along each side of the window of which an outlier deviates
-CHUNK = 2**18  # points whose windows are held at once
-GAUSSIAN = 1.4826  # standard deviation over median deviation
-ALPHA = math.sqrt(math.log(2) / math.pi)
-FILTER_REACH = 6.0  # standard deviations of the weights of a filter that are summed
+
+# Of the largest height: what a fitted form leaves of a map that has it exactly, chosen for rounding.
+LEFT_BY_FORM = 1e-13
+
+DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest; chosen for rounding
+
+# Robust deviations beyond which a point that stands alone is an outlier. A choice: 2 in 1e9 points of a Gaussian map.
+OUTLIER_LIMIT = 6.0
+
+WINDOW = 5  # points along each side of the window of which an outlier deviates; a choice: ridges of three points stay
+CHUNK = 2**18  # points whose windows are held at once; a choice, for memory
+GAUSSIAN = 1.4826  # standard deviation over median deviation; by definition of a normal distribution
+ALPHA = math.sqrt(math.log(2) / math.pi)  # of a Gaussian filter, ISO 16610-61
+FILTER_REACH = 6.0  # standard deviations of the weights of a filter that are summed; a choice: exp(-18) is left out
 
 
 def fitted_form(

@@ -23,7 +23,7 @@ from .surfer import BINARY as SURFER_BINARY
 from .text import DECIMALS, read_text
 from .x3p import read_x3p
 
-MOST_MAP_BYTES = 2**31  # of any file
+MOST_MAP_BYTES = 2**31  # of any file; a choice, for memory
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd", ".grd")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)

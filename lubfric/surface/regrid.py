@@ -18,8 +18,8 @@ from ..units import worded
 
 Surface = Any  # `lubfric.Surface`, which is built of these functions
 
-MOST_MAP_POINTS = 2**26  # of any map, 512 MiB of heights
-EQUAL_LENGTHS = 1e-9  # relative difference of lengths that are equal
+MOST_MAP_POINTS = 2**26  # of any map, 512 MiB of heights; a choice, for memory
+EQUAL_LENGTHS = 1e-9  # relative difference of lengths that are equal; a choice: printed with nine digits
 
 
 def pair(name: str, value: Any) -> tuple[int, int]:

@@ -16,14 +16,15 @@ from ..errors import InputError
 
 Surface = Any  # `lubfric.Surface`, which is built of these functions
 
-INVERSE_E = math.exp(-1)
-SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
-SMALLEST_SQ = 1e-11  # m: of a rough map; a tenth of an atom. Superpolished mirrors have 5e-11 m
-SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map; a tenth of an atom
-LONGEST_SPACING = 1e-2  # m
-IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
+INVERSE_E = math.exp(-1)  # decay level of a correlation length, by definition of it (ISO 25178-2 has 0.2)
+SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit; a choice
+SMALLEST_SQ = 1e-11  # m: of a rough map; a tenth of an atom. Superpolished mirrors have 5e-11 m; a choice
+SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map; a tenth of an atom; a choice
+LONGEST_SPACING = 1e-2  # m; of such a map: a choice
+IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit; a choice
 # Heights of a Gaussian surface over its Sq. Ra: exactly. Rz: an estimate, for a profile of L correlation lengths has
-# 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF).
+# 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF). The 5 of
+# Rz is a choice between these.
 PER_SQ = {"ra": math.sqrt(2 / math.pi), "rz": 5.0}
 # Up to this Ra [m], sampling length [m] (ISO 4288).
 SAMPLING_LENGTHS = ((2e-8, 8e-5), (1e-7, 2.5e-4), (2e-6, 8e-4), (1e-5, 2.5e-3))

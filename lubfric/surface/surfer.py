@@ -11,13 +11,15 @@ from .header import LENGTH_UNITS
 SURFER_FIRST_WORD = "DSAA"
 BINARY = (b"DSBB", b"DSRB")  # the first bytes of the other formats with the same suffix
 
-# A height from which on a point is blank (Surfer writes 1.70141e+38).
+# A height from which on a point is blank (Surfer writes 1.70141e+38). By definition of the format.
 BLANK = 1.7e38
 
-# Relative difference up to which the lowest and the highest height agree with those of the header, which are printed.
+# Relative difference up to which the lowest and the highest height agree with those of the header, which are printed. A
+# choice: they have four digits or more.
 SAME_HEIGHT = 1e-3
 
-# Numbers of the header: the points along x and y, then the lowest and highest x, y and height.
+# Numbers of the header: the points along x and y, then the lowest and highest x, y and height. By definition of the
+# format.
 HEADER = 8
 
 

@@ -34,7 +34,7 @@ from .surfer import SURFER_FIRST_WORD as SURFER
 from .surfer import read_surfer
 from .zygo import PHASES_TITLE, POINTS_TITLE, read_zygo
 
-MOST_TEXT_BYTES = 2**30  # of a file of text
+MOST_TEXT_BYTES = 2**30  # of a file of text; a choice, for memory
 DECIMALS = (".", ",")
 UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
 WYKO = "Wyko ASCII Data File Format"
@@ -43,7 +43,7 @@ _SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
 # 'heights in nm'
 OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm|um|µm|μm|nm)\b", re.I)
-LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
+LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in; as in `LENGTHS`
 
 _NUMBER_IN_FIELD = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"

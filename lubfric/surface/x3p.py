@@ -21,10 +21,10 @@ from .._base import validate
 from ..errors import InputError
 from .height_map import Surface
 
-MOST_XML = 4 * 2**20  # bytes of main.xml
-MOST_X3P_POINTS = 2**25  # 256 MiB of doubles
+MOST_XML = 4 * 2**20  # bytes of main.xml; a choice, for memory
+MOST_X3P_POINTS = 2**25  # 256 MiB of doubles; a choice, for memory
 TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
-MOST_SUMS = 2**16  # bytes of the file of checksums
+MOST_SUMS = 2**16  # bytes of the file of checksums; a choice, for memory
 CORRUPT = (
     zipfile.BadZipFile,
     zlib.error,

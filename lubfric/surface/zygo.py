@@ -14,16 +14,17 @@ from .header import LENGTH_UNITS
 POINTS_TITLE = "Zygo XYZ Data File"
 PHASES_TITLE = "Zygo ASCII Data File"
 
-# Lines of the header, at most: programs write 13 or 14.
+# Lines of the header, at most: programs write 13 or 14. A choice.
 LONGEST_HEADER = 40
 
-# Lines of the header (from 0) with the size of the intensities, the size of the map, the optics, and the phase resolution.
+# Lines of the header (from 0) with the size of the intensities, the size of the map, the optics, and the phase
+# resolution. By definition of the format.
 INTENSITIES = 2
 SIZE = 3
 OPTICS = 7
 RESOLUTION_LINE = 10
 
-# Counts of a phase in one wave, by the code of the phase resolution.
+# Counts of a phase in one wave, by the code of the phase resolution: by definition of the format.
 COUNTS_OF_A_WAVE = {0: 4096, 1: 32768, 2: 131072}
 
 # A phase from which on a point is unmeasured.
