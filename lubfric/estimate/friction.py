@@ -19,7 +19,8 @@ from .work_of_point import estimated_work_of_point
 # not measured: estimates are right within a factor of about 3.
 TIMES_ESTIMATE = 10.0
 
-# Least counted work [s] that a point may take where numerics.max_work does not say.
+# Least counted work [s] that a point may take where numerics.max_work does not say. A choice: the estimate of a short
+# point may be far off.
 LEAST_LIMIT = 120.0
 
 

@@ -23,8 +23,8 @@ EXAMPLE_LENGTHS_ALONG_X = 16.0
 # Correlation length [m] for which a message suggests a grid where none is given. Not measured.
 EXAMPLE_LENGTH = 1e-5
 
-# Cells across the Hertz strip in a picture: an asperity contact of the built-in scene then has five across. Changes
-# no number.
+# Cells across the Hertz strip in a picture: an asperity contact of the built-in scene then has five across. Changes no
+# number. A choice, by looking at the figures.
 ACROSS = 40
 
 # Cells in a correlation length, at least: with five f is within 1 % (docs/measurements.md, cells per correlation
@@ -35,14 +35,16 @@ CELLS_PER_LENGTH = 4.0
 # correlation length decides (`python -m verification.campaigns.constants`).
 CELLS_PER_HALF_WIDTH = 2.0
 
-# Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned.
+# Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned. A choice:
+# it allows two halvings.
 COLUMNS_MULTIPLE = 4
 
 # Cells along y come in multiples of this number times a fast length of the transform, so that lengths can be halved
 # four times.
 ROWS_MULTIPLE = 16
 
-# Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher.
+# Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher. A choice: more
+# takes wider strips.
 HIGHEST_SUMMITS = 4.5
 
 

@@ -32,7 +32,7 @@ from .cells import Cells
 from .rough_contacts import half_space_contact_of
 
 # Correlation lengths along y of a piece on native cells: eight blocks of five lengths (models/shared/statistics.py), so
-# that a piece states its own error.
+# that a piece states its own error. A choice: eight blocks of `LEAST_BLOCK_LENGTH`, and what rounding takes.
 PIECE_LENGTH = 42.0
 
 

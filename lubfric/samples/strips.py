@@ -33,7 +33,8 @@ from .contract import PIECE_LENGTH, Sample
 from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 from .windows import blend_of, joined_maps, spread_order, starts_of
 
-# Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py).
+# Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py). A choice: longer
+# strips may be longer than a point needs.
 STRIP_LENGTHS = 90.0
 
 # Correlation lengths in the Hertz half-width from which on a strip half as long has as many asperity contacts. Not
@@ -49,38 +50,39 @@ MOVING_STRIP_LENGTHS = 30.0
 # many change f by up to 1.7 %, within the sampling tolerance of 2 % (`python -m verification.campaigns.constants`).
 FIRST_LENGTHS = 180.0
 
-# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has.
+# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice.
 MOST_LENGTHS = 46080.0
 
-# Cells of joined strips, at most, for memory: 24 MB for each field.
+# Cells of joined strips, at most, for memory: 24 MB for each field. A choice.
 MOST_JOINED_CELLS = 3_000_000
 
-# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights.
+# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights. A choice.
 KEPT_CELLS = 2_000_000
 
 # Correlation lengths along the motion between windows of a measured map that count as independent: a Gaussian
 # correlation is 1e-7 there, an exponential one 0.02.
 WINDOW_DISTANCE = 4.0
 
-# A window passes into the next one on its width over this [-], at most.
+# A window passes into the next one on its width over this [-], at most. A choice: most of a window stays as measured.
 LEAST_OVER_BLEND = 4
 
 # Rows of a window of a measured map, and of a piece, are a multiple of this [-], so that cells can be joined twice.
 WINDOW_ROWS_MULTIPLE = 4
 
-# Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %.
+# Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %. A
+# choice.
 ENOUGH_WINDOWS = 8
 
 # Deviation of the Sq of strips from that of their map, relative, below which it is not stated. A convention.
 SMALL_DEVIATION = 0.02
 
-# Half of the 95 % interval of a normal distribution over its standard deviation.
+# Half of the 95 % interval of a normal distribution over its standard deviation. By definition.
 NORMAL_REACH = 1.96
 
-# Stream of seeds of strips.
+# Stream of seeds of strips. A choice.
 SEEDS_OF_STRIPS = 0
 
-# Stream of seeds of pieces.
+# Stream of seeds of pieces. A choice: another one than that of strips.
 SEEDS_OF_PIECES = 1
 
 

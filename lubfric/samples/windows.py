@@ -2,7 +2,8 @@
 
 import numpy as np
 
-# Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there.
+# Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there. A choice:
+# shorter steps show, longer ones smooth more.
 BLEND = 2.0
 
 

@@ -55,7 +55,8 @@ BY_PLACES = "the difference of the models from place to place"
 LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
 BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which published theories differ"
 
-# Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known to 5 %.
+# Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known
+# to 5 %. A choice.
 WORTH_A_NOTE = 1.05
 
 # Counted work of a strip [s] above which no cells are recommended: an hour. A convention.
@@ -90,14 +91,16 @@ SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
 # gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
 
-# Share of the lubricant out of touching cells above which f depends on the assumed gap between them, and a note reports it.
+# Share of the lubricant out of touching cells above which f depends on the assumed gap between them, and a note reports
+# it. A choice: less widens more intervals.
 MOST_GIVEN_OFF = 0.1
 
 # Error of f by that gap, at 95 % [-]: twice the change of some 1 % with half of it.
 ERROR_BY_GAP = 0.02
 BY_GAP = "the assumed gap of 1 nm between touching cells"
 
-# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it.
+# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
+# less warns of more points.
 CUT = 0.1
 
 

@@ -18,7 +18,8 @@ from .strip import StripSolution
 # gaps, by a part of their height that falls with the square of the cells: f changes as by a boundary film that is
 # thinner. So the effect is in proportion to d ln f/d ln(boundary film).
 
-# Part by which the narrow gaps are too small, over (cell/correlation length)² along x and along y [-].
+# Part by which the narrow gaps are too small, over (cell/correlation length)² along x and along y [-]. Fitted to
+# `verification.campaigns.moving_cells`.
 NARROW_GAPS = (1.4, 0.35)
 
 # Part of the effect of the narrow gaps by which single contacts differ from it, at 95 % [-]. On 12 of 13 Gaussian
@@ -46,10 +47,12 @@ IN_HALF_WIDTH = (3.0, 14.0)
 UNSMOOTH = 5.0
 UNSMOOTH_NARROWED = 5.5
 
-# Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
+# Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left. It follows from
+# 1/(2² - 1), Richardson's extrapolation.
 BY_LONGER = 1 / 3
 
-# Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1.
+# Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1. It follows from
+# boundary friction as the only sliding part.
 STEEPEST = 1.0
 
 # Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A

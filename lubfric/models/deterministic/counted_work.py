@@ -5,10 +5,10 @@ import math
 # Seconds a cell of a Newton step without its linear system, measured on the 2.6 GHz core of the first campaigns.
 NEWTON_STEP = 1.7e-6
 
-# Seconds a cell of the LU factorisation, over log2 of the cells; the same core.
+# Seconds a cell of the LU factorisation, over log2 of the cells; the same core. Measured as `NEWTON_STEP`.
 LU_FACTORISATION = 1.35e-7
 
-# Seconds a cell of one iteration of GMRES; the same core.
+# Seconds a cell of one iteration of GMRES; the same core. Measured as `NEWTON_STEP`.
 GMRES_ITERATION = 1.9e-7
 
 # Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"

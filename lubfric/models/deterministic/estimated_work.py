@@ -27,7 +27,8 @@ from .problem import are_soft, reach
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
 
-# Newton steps on cells half as long, which begin at the solution on longer ones [-].
+# Newton steps on cells half as long, which begin at the solution on longer ones [-]. Measured on the points of `python
+# -m verification.campaigns.estimates`, as all numbers below that name no other source.
 FINER_STEPS = 6
 
 # Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so many. A
@@ -36,41 +37,45 @@ FINER_STEPS = 6
 FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 
 # Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
-# the points.
+# the points. Measured there.
 LAST_STEPS = 10
 
-# Newton steps on a strip of long cells where the pressure is high, with those on cells twice as long from which it starts, and
-# with the iterations of GMRES [-]: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
+# Newton steps on a strip of long cells where the pressure is high, with those on cells twice as long from which it
+# starts, and with the iterations of GMRES [-]: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
+# Measured there.
 HEAVY_LONG_CELL_STEPS = 32
 
 # Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH_WORK = 3.5
 
-# Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more.
+# Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more. It
+# follows from a quarter of the cells each time, 1/4 + 1/16 + ...
 ON_LONGER_CELLS = 0.3
 
 # Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11 below and none of
 # 14 above it.
 ENOUGH_ALONE = 0.3
 
-# Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these points.
+# Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these
+# points. Measured there.
 PIECES_OF_MORE_STRIPS = 3.0
 
 # Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9 of these points,
 # and all others, solve one.
 PIECES_OF_RUBBED = 0.25
 
-# Film of the smooth contact over Sq below which f is nearly f_b [-].
+# Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice.
 RUBBED_FILM = 0.25
 
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
+# Measured there.
 OF_SLOPE = 0.5
 
-# Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].
+# Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-]. Measured there.
 LAST_LEVEL_OF_ONE_STRIP = 0.2
 
-# The same where more strips are solved [-].
+# The same where more strips are solved [-]. Measured there.
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
@@ -92,7 +97,8 @@ BY_CORRELATION_LENGTH = 0.343
 BY_THICKENING = 0.304
 BY_SLIDING = 0.318
 
-# The least of the former product over Λ in those contacts [-]: below it the number of steps is that at it.
+# The least of the former product over Λ in those contacts [-]: below it the number of steps is that at it. Measured
+# there.
 LEAST_THICKENING = 0.56
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is
@@ -106,7 +112,7 @@ MIXED_FILMS = (0.3, 1.7)
 # the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
 MAY_BE_HALVED = 1.2
 
-# Scatter of the difference between the models over that of f [-].
+# Scatter of the difference between the models over that of f [-]. Measured there.
 UNLIKE = 0.65
 
 # Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_expected_strips`) of one
@@ -117,20 +123,21 @@ SCATTER_IN_MOTION = 0.45
 # Standard deviation of ln of the strips that follow from it [-]: twice that of ln of the error about it, .91 in these contacts.
 SCATTER_SPREAD = 1.8
 
-# Cautious error (`StandardError.cautious`) over the error [-], with some ten degrees of freedom.
+# Cautious error (`StandardError.cautious`) over the error [-], with some ten degrees of freedom. It follows from that
+# method.
 CAUTIOUS = 1.3
 
-# Half-widths of the Hertz strip along y that are solved again for a picture [-].
+# Half-widths of the Hertz strip along y that are solved again for a picture [-]. A choice, by looking at the figures.
 PICTURED_LENGTH = 10.0
 
-# Correlation lengths along y of such a picture, at least [-].
+# Correlation lengths along y of such a picture, at least [-]. A choice, by looking at the figures.
 LEAST_PICTURED_LENGTH = 8.0
 
 # Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-], one of two: about half of
 # them at ratios of .4 to 1.9, one of thirty below, on 26 contacts of verification.campaigns.moving_coverage with typical ranges.
 SOLVED_ENDS_SLIDING = 0.3
 
-# What is not solved takes nothing.
+# What is not solved takes nothing. By definition.
 NO_WORK = WorkEstimate(strips=0, seconds=0.0, has_answer=False)
 
 

@@ -16,45 +16,47 @@ from .problem import are_soft
 from .solve import MOST_FACTORISATIONS
 
 # Newton steps on a strip, about [-]: 6 on longer cells, 8 on the strip itself. 90 % within a factor of 3 with
-# `STEPS_BY_PRESSING`.
+# `STEPS_BY_PRESSING`. Fitted.
 STRIP_STEPS = 9
 
-# Newton steps on a strip whose neighbour is solved [-]: at an end of the range of an input.
+# Newton steps on a strip whose neighbour is solved [-]: at an end of the range of an input. Measured.
 AGAIN = 4
 
 # Iterations of GMRES in a step over the pressure-viscosity coefficient times Hertz pressure [-]: 1.4, 4.4, 10 at 1.1,
-# 3.4, 11.
+# 3.4, 11. Fitted.
 KRYLOV_BY_THICKENING = 1.2
 
-# Iterations of GMRES in a step that are expected, at most [-].
+# Iterations of GMRES in a step that are expected, at most [-]. Measured.
 MOST_KRYLOV_ITERATIONS = 9.0
 
 # Newton steps on a strip where a given film arrives [-]: 9 on longer cells, 16 on the strip itself. 79 % within a
-# factor of 3 with `STEPS_BY_PRESSING`.
+# factor of 3 with `STEPS_BY_PRESSING`. Fitted.
 STARVED_STEPS = 15.0
 
 # Change of ln of these steps with how far a thin film is pressed between conforming bodies, ln(flattening/Sq)·(1/2 - ln
 # Λ), each factor 0 at least [-]: .30 on longer cells, .24 on the strip itself, .25 and .27 where flooded. Λ: of the
-# film that arrives.
+# film that arrives. Fitted.
 STEPS_BY_PRESSING = 0.25
 
-# Logarithm of the lambda ratio below which that begins [-]: Λ 1.6.
+# Logarithm of the lambda ratio below which that begins [-]: Λ 1.6. Fitted.
 STEPS_BY_PRESSING_BELOW = 0.5
 
-# Newton steps on a strip of soft bodies (`are_soft`) at Λ 1 and a pressure-viscosity coefficient times Hertz pressure of 1,
-# where they are like others [-]. From the dry contact thin films converge in steps in time alone. 85 % within a factor of 3.
+# Newton steps on a strip of soft bodies (`are_soft`) at Λ 1 and a pressure-viscosity coefficient times Hertz pressure
+# of 1, where they are like others [-]. From the dry contact thin films converge in steps in time alone. 85 % within a
+# factor of 3. Fitted.
 SOFT_STEPS = 12.5
 
-# Change of ln of these steps with ln Λ [-]: -.44 on longer cells, -.63 on the strip itself.
+# Change of ln of these steps with ln Λ [-]: -.44 on longer cells, -.63 on the strip itself. Fitted.
 SOFT_BY_FILM = -0.55
 
 # Change of ln of these steps with ln of the pressure-viscosity coefficient times Hertz pressure [-]: -.27, -.14.
+# Fitted.
 SOFT_BY_THICKENING = -0.25
 
 # The least of that product in the fitted contacts [-].
 LEAST_THICKENED = 0.01
 
-# Iterations of GMRES in a step of soft bodies [-]: 14 on longer cells, 19 on the strip itself.
+# Iterations of GMRES in a step of soft bodies [-]: 14 on longer cells, 19 on the strip itself. Measured.
 SOFT_KRYLOV = 18.0
 
 # Part of the steps that a neighbour of a solved strip of soft bodies takes [-]: 2 of 100 to all.

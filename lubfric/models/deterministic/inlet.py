@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 # 1e-8.
 INLET_POINTS = 24
 
-# Reduced pressure Q upstream of the grid times alpha, at most [-]: no converged film has as much.
+# Reduced pressure Q upstream of the grid times alpha, at most [-]: no converged film has as much. A choice, below the 1
+# at which the pressure by Barus is infinite.
 MOST_ALPHA_Q = 0.8
 
 

@@ -59,8 +59,8 @@ from .time_and_place import mean_over_blocks
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
 # solved: it moves by up to 3 %, within the sampling error that is stated with it.
 
-# Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for what
-# is added to it. Half: twice the time.
+# Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for
+# what is added to it. Half: twice the time. A choice: less takes more strips.
 DIFFERENCE_SHARE = 0.95
 
 # Scatter of the deterministic f between strips over that of blocks [-], without a control variate. From the first
@@ -84,16 +84,19 @@ FREEDOM = 5
 # speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
 BALANCED = 1.3
 
-# Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`).
+# Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`). A choice: more may
+# solve strips in vain, less takes more rounds.
 STRIPS_GROWTH = (4.0, 2.0)
 
-# Factor on the strips that an error needs, and least growth [-] (`strips_for_error`).
+# Factor on the strips that an error needs, and least growth [-] (`strips_for_error`). A choice, as in `STRIPS_GROWTH`.
 STRIPS_SPARE = (1.1, 1.2)
 
 # Work of a strip on these cells over that on both lengths before [-]: 2.3 on a needle roller at 2 m/s, after those.
+# Measured there.
 HALVED_WORK = 2.5
 
-# Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges.
+# Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges. A choice:
+# more leaves less to the ends of ranges.
 PART_OF_WORK_LEFT = 0.5
 
 # Strips whose scatter tells an error [-]: two degrees of freedom. A convention.

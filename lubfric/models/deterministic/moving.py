@@ -41,13 +41,14 @@ from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, e
 
 # The effects of half and twice a constant are those named in `moving_strip`.
 
-# Residual of a step (`residuals`), unless another is given [-]. With 0.2 instead f of a roller of 1 GPa is the same to 1e-4.
+# Residual of a step (`residuals`), unless another is given [-]. Measured: with 0.2 instead f of a roller of 1 GPa is
+# the same to 1e-4.
 MOVING_STEP_RESIDUAL = 1e-3
 
 # LU factorisations of a step, at most [-]; a usual step takes 3 to 4. Half and twice change nothing.
 MOST_STEP_FACTORISATIONS = 160
 
-# Newton steps from one start, at most [-].
+# Newton steps from one start, at most [-]. A choice: a bound, above what a step takes that converges.
 MOST_NEWTON_STEPS = 40
 
 # Newton steps from the moved state, at most, where the last step that began there was not solved [-]. Four contacts with Λ of .2

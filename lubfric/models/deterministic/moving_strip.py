@@ -47,7 +47,7 @@ CELLS_FOR_LOOSE_STEPS = 8
 FACTORISATIONS_IN_A_STEP = 4.0
 
 # GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the contacts of
-# `FACTORISATIONS_IN_A_STEP`.
+# `FACTORISATIONS_IN_A_STEP`. Measured there.
 KRYLOV_IN_A_STEP = 25.0
 
 # Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
@@ -57,11 +57,13 @@ SMALL_WAVES = 3.0
 # Mean square height below which a body is smooth [m²]. A convention.
 SMALLEST_SQUARE = 1e-30
 
-# Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant does.
-# At this speed steps of the lubricant are twice as many as the roughness needs; `moving` has what slower roughness would gain.
+# Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant
+# does. At this speed steps of the lubricant are twice as many as the roughness needs; `moving` has what slower
+# roughness would gain. A choice between time and the error by steps.
 SLOW_ROUGHNESS = 0.5
 
-# Speed of the roughness over U [-]: where some is faster, it passes one cell in a step, and not more.
+# Speed of the roughness over U [-]: where some is faster, it passes one cell in a step, and not more. A choice between
+# time and the error by steps.
 FAST_ROUGHNESS = 2.0
 
 # Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].
@@ -76,8 +78,9 @@ CONTINUED_WAY = 0.4
 # Moments of a continuation that count, at least [-]. Half and twice change nothing where only the shear stress has a range.
 FEWEST_CONTINUED = 8
 
-# Distance that the roughness travels in the moments that count before the error of the mean is known first [half-widths]:
-# half of a block of time (`time_and_place.TIME_BLOCK`).
+# Distance that the roughness travels in the moments that count before the error of the mean is known first
+# [half-widths]: half of a block of time (`time_and_place.TIME_BLOCK`). A choice: less judges by too few moments, more
+# may be in vain.
 PILOT_WAY = 1.5
 
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
@@ -118,6 +121,7 @@ class MovingEffort:
     discarded_again: float
 
 
+# Effort by choice: what looser steps change of f is measured at `ECONOMICAL`.
 TIGHT = MovingEffort(
     residual=1e-4,
     carries_imbalance=False,
@@ -152,9 +156,10 @@ class ExpectedCourse:
     on_longer: float
 
 
-# On two lengths of cells (verification/campaigns/moving_coverage): 3 to 6 steps on the contacts of `FACTORISATIONS_IN_A_STEP`,
-# more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s); bearing 2 to 3 half-widths,
-# gear flank 6, needle roller 10; 0.49 (gear flank) and 0.52 (needle roller) on longer cells.
+# On two lengths of cells (verification/campaigns/moving_coverage): 3 to 6 steps on the contacts of
+# `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at
+# 0.01 m/s); bearing 2 to 3 half-widths, gear flank 6, needle roller 10; 0.49 (gear flank) and 0.52 (needle roller) on
+# longer cells. Measured there.
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
 # On the long cells of the quick answer: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random

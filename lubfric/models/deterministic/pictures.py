@@ -9,7 +9,7 @@ import numpy as np
 from ..._base import figures
 from .moving_strip import Moment, MovingStripSolution, film_half_width
 
-MOST_MOMENTS = 8  # moments side by side
+MOST_MOMENTS = 8  # moments side by side; a choice, by looking at the figures
 TIME = "time since the roughness began to move (ms)"
 
 

@@ -28,7 +28,7 @@ from ...oil import Lubricant
 from ...surface import Surface
 from ..shared import Memo, OperatorKey
 
-FLOOR = 1e-9  # m
+FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice, whose half changes f by some 1 % (`ERROR_BY_GAP`)
 BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
 
 # The effects of half and twice the lengths of the grid are those on three points of the scene "paper" (`python -m
@@ -56,7 +56,7 @@ FILM_OUTLET = 0.8
 # took long by Newton's method alone, and one of 0.7 did at 19 GPa.
 ISOVISCOUS = 1.0
 
-MOST_GRID_CELLS = 2**20  # cells
+MOST_GRID_CELLS = 2**20  # cells; at most: a choice, for memory
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,7 +14,9 @@ import numpy as np
 from ..._base import FloatArray
 from ...oil import Lubricant, density_ratio, log_viscosity_ratio
 
-THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's
+# Of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's. A choice, below the largest exponent
+# of double precision, 709.
+THICKEST = 300.0
 
 
 @dataclass(frozen=True, kw_only=True)

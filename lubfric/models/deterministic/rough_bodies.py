@@ -9,10 +9,11 @@ from ..shared import Prepared, ReferenceKey, contact_on_strip
 from .moving import RoughBody
 from .summits import SummitControl, control_of
 
-# Strips over which the control of moving roughness is averaged, at most: its error is a seventh of their scatter.
+# Strips over which the control of moving roughness is averaged, at most: its error is a seventh of their scatter. A
+# choice: more costs time, less leaves more scatter.
 CONTROL_STRIPS = 48
 
-# Cells of all these strips together, at most: about a second of processor time.
+# Cells of all these strips together, at most: about a second of processor time. A choice.
 CONTROL_CELLS = 4_000_000
 
 

@@ -37,25 +37,27 @@ FACTORISATIONS_IN_TIME = 500
 # LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
 MOST_FACTORISATIONS = 800
 
-# Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself.
-# No film of the campaign needs it.
+# Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself. A
+# choice: faster films converge more easily, and take more steps down. No film of the campaign needs it.
 START_SPEEDS = (16.0, 256.0)
 
-# Residual of solutions on the way [-]. No film of the campaign needs it.
+# Residual of solutions on the way [-]. No film of the campaign needs it. A choice, as in the tolerance of a strip.
 RESIDUAL_ON_THE_WAY = 1e-3
 
-# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign needs it.
+# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign needs it. A choice: more saves
+# steps, and may fail.
 SPEED_STEP_GROWTH = 1.5
 
-# The least step in ln(speed) [-]: a bound. No film of the campaign needs it.
+# The least step in ln(speed) [-]: a bound. No film of the campaign needs it. A choice: less costs time before a film
+# fails.
 LEAST_SPEED_STEP = 0.05
 FILM_ADVICE = "longer cells may lead there, or a higher speed"
 
-# Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the
-# campaign needs it; an oil has .05 to .1.
+# Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the campaign needs
+# it; an oil has .05 to .1. A choice.
 THIN_STRESS = 0.09
 
-# Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it.
+# Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it. A choice.
 THIN_OFFSET = 2e6
 
 # Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice change the work by
@@ -78,12 +80,12 @@ SOFT_PATIENCE = 8
 
 # Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would
 # flow in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge in 16 or 23 steps from some of them
-# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
+# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`. Chosen by these.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
 # Parts of the expected film by which the dry contact is lifted where every other way has failed [-]. A bearing of 10 mm
 # radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on 48 cells across, has no solution from .1, .33, .5, .7
-# and 1, and one after 12 steps from .2, after 41 from 2.
+# and 1, and one after 12 steps from .2, after 41 from 2. Chosen by it.
 LAST_LIFTS = (0.2, 2.0)
 
 # Asperity load ratio [-], from which on a finer grid does not start from interpolated pressure: contacts are too sharp for
@@ -105,8 +107,8 @@ WET_LOAD_RATIO = 0.1
 # of Moes' film, 15, 21, 33 with 0, 12, 15, 21 with 0.12, 13, 14, 36 with 0.25, 21 (not solved), 13, 45 with 0.5.
 FILM_PRESSURE_PART = 0.125
 
-# Part of a Newton step [-], below which a `_corrected_dry_start` is given up: the solution follows by steps that are longer,
-# or not at all (7 steps where it does, see `WET_LOAD_RATIO`).
+# Part of a Newton step [-], below which a `_corrected_dry_start` is given up: the solution follows by steps that are
+# longer, or not at all (7 steps where it does, see `WET_LOAD_RATIO`). A choice: more gives up sooner.
 LEAST_CORRECTED_STEP = 0.3
 
 

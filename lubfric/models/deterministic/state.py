@@ -9,13 +9,13 @@ from ..._base import BoolArray, FloatArray
 from .flow import MassBalance, mass_balance
 from .problem import Problem
 
-# Kind of a cell: the film fills the gap.
+# Kind of a cell: the film fills the gap. A name by choice.
 FLUID = 0
 
-# Kind of a cell: the film is ruptured, its pressure is 0.
+# Kind of a cell: the film is ruptured, its pressure is 0. A name by choice.
 RUPTURED = 1
 
-# Kind of a cell: the bodies touch, the gap is the floor.
+# Kind of a cell: the bodies touch, the gap is the floor. A name by choice.
 TOUCHING = 2
 
 # Part of the second difference of the last three masses that makes a step of BDF2 one of BDF3 [-]: (11 m - 18 m1 + 9 m2 -
@@ -23,7 +23,7 @@ TOUCHING = 2
 CURVATURE = 1.0 / 3.0
 
 # Part of the mass of a cell by which it is extrapolated at most [-], as by the limiter of the Couette flow
-# (`flow.couette_flow`).
+# (`flow.couette_flow`). Half: by definition of minmod there.
 MOST_EXTRAPOLATED = 0.5
 
 # Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
@@ -32,7 +32,8 @@ MOST_EXTRAPOLATED = 0.5
 # 240 cells takes 72 with 0, and 28 with 0.5.
 STRONG_SUCTION = 0.5
 
-# Suction of a touching cell over U times the floor over dx, below which it keeps touching [-].
+# Suction of a touching cell over U times the floor over dx, below which it keeps touching [-]. A choice: with 0,
+# rounding opens a contact.
 PULL = 0.01
 
 

@@ -24,7 +24,7 @@ from .time_and_place import Places, TimeAndPlace
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.strip.`).
 
-# Tolerance of a strip's residuals [-]: f moves by some .1 %.
+# Tolerance of a strip's residuals [-]: f moves by some .1 %. A choice: less takes more steps.
 STRIP_RESIDUAL = 3e-3
 
 # The `StripSolution.slope` of a strip where it is not known: none was looked for.
@@ -33,7 +33,7 @@ UNKNOWN_SLOPE = math.nan
 # Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice change nothing.
 LONGER_CELLS_RESIDUAL = 1e-2
 
-# Cells from which a strip is solved on longer ones first [-].
+# Cells from which a strip is solved on longer ones first [-]. A choice: fewer cells converge from the dry contact.
 MANY_CELLS = 12_000
 
 # Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times

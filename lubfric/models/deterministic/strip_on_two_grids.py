@@ -17,12 +17,13 @@ from .result import DeterministicResult
 from .rough_bodies import bodies_of, map_of_strip, summit_control
 from .strip import UNKNOWN_SLOPE, StripSolution, solve_strip
 
-# Cells in a correlation length, at least.
+# Cells in a correlation length, at least. A choice: fewer show no correlation.
 PER_LENGTH = 2.0
 
-# Cells in the Hertz half-width along x, at least.
+# Cells in the Hertz half-width along x, at least. A choice: fewer show no contact.
 PER_HALF_WIDTH = 1.0
-# Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends.
+# Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: less
+# takes longer, more leaves less to other errors.
 MOVING_SAMPLE = 0.6
 
 # Cells in a correlation length along x, at least, where roughness moves (docs/tolerances.md).

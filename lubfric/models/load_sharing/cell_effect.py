@@ -27,25 +27,26 @@ from .scatter import gap_influence, hertz_mean_gap, line_load
 SERIES_RATIOS = (0.25, 0.75)
 
 # Ratio of the next change to the last one, at least and at most [-]: smooth heights, of second order and better; and
-# detail at every scale.
+# detail at every scale. They follow from 2^-3 and 2^-1, by choice of the orders.
 NEXT_RATIOS = (0.125, 0.5)
 
-# Ratio of successive changes where there is one change only [-].
+# Ratio of successive changes where there is one change only [-]. A choice: the larger of `NEXT_RATIOS`.
 UNKNOWN_CHANGE_RATIO = 0.5
 
 # Next change over the last but one, at least [-], in case the last one is small by chance. Not measured.
 LEAST_NEXT_RATIO = 1 / 32
 
-# Pieces that state a scatter where each is too short for blocks.
+# Pieces that state a scatter where each is too short for blocks. A choice: two degrees of freedom.
 FEWEST_PIECES = 3
 
 # Pieces, at most: 504 correlation lengths. Not measured: it bounds the work, and the error that is left is reported.
 MOST_COMPARED_PIECES = 12
 
-# Cells of a piece, at most, where a coarser one would do: memory and time.
+# Cells of a piece, at most, where a coarser one would do: memory and time. A choice.
 MOST_PIECE_CELLS = 300_000
 
-# Part of the sampling tolerance that the scatter between pieces may take.
+# Part of the sampling tolerance that the scatter between pieces may take. A choice: the error of the pieces is added to
+# that of the strips.
 PIECE_SHARE = 0.5
 
 # Change of the gap's change over its size, per ln of the contact load, at most: less than 1.5 was seen on Gaussian

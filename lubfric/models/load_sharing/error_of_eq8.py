@@ -9,14 +9,14 @@ from ..shared import Sides
 # docs/measurements.md.
 OF_SHARE = 0.7
 
-# Error of f in contact over sqrt(1 - s).
+# Error of f in contact over sqrt(1 - s). Measured by that command.
 IN_CONTACT = 0.25
 
-# Error of the shear force of the film times the square of the film-to-roughness ratio (central film over Sq), over
-# that force.
+# Error of the shear force of the film times the square of the film-to-roughness ratio (central film over Sq), over that
+# force. Measured by that command.
 OF_FILM = 3.2
 
-# Error of the shear force of the film over that force, at most.
+# Error of the shear force of the film over that force, at most. Measured by that command.
 MOST_OF_FILM = 0.3
 
 # Factor on the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen (`python -m
@@ -24,9 +24,11 @@ MOST_OF_FILM = 0.3
 OF_ROLLING = 8.0
 
 # Error of f towards 0 and away from it, over the filled part of the gap, where a given film arrives (`starved_error`).
+# Measured by that command.
 STARVED_ERROR = Sides(0.5, 0.1)
 
-# Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces.
+# Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces. Measured by
+# that command.
 LEAST_WITH_FILM = 0.1
 
 # Film-to-roughness ratio from which the flanks add less, with the square of it: 2.4 times the rolling force were seen

@@ -34,7 +34,7 @@ from .scatter import Scatter
 PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 
-# Errors of f towards 0 and away from it where the model has none.
+# Errors of f towards 0 and away from it where the model has none. By definition.
 NO_ERROR = Sides(0.0, 0.0)
 BY_EQUATION = "the friction of Eq. (9)"
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"

@@ -21,7 +21,7 @@ LOG_RATIO_STEP = 0.05
 # (`python -m verification.campaigns.constants`).
 LOAD_STEP = 0.05
 
-# Change of ln(F_H/F_C) beyond which nothing is known [-].
+# Change of ln(F_H/F_C) beyond which nothing is known [-]. A choice, below what overflows.
 LARGEST_GROWTH = 50.0
 
 

@@ -17,19 +17,20 @@ if TYPE_CHECKING:
     from ...scene import Scene
 
 
-# Blocks below which nothing is known [-].
+# Blocks below which nothing is known [-]. A choice: fewer have no scale.
 FEWEST_BLOCKS = 4
 
-# Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these.
+# Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these. A
+# choice.
 BLOCKS_FOR_SCALE = 14
 
 # Factor on the scale that fewer blocks show. Not measured: that scale is known to 1/sqrt(2 (n - 1)), 40 % with four.
 UNSURE_SCALE = 2.0
 
-# Mean of (excess/scale)^1.5 of an exponential excess.
+# Mean of (excess/scale)^1.5 of an exponential excess. It follows from ∫ x^1.5 exp(-x) dx = Γ(2.5).
 OVERLAP = math.gamma(2.5)
 
-# Euler's constant: the mean of the standard Gumbel distribution.
+# Euler's constant: the mean of the standard Gumbel distribution. By definition.
 EULER = 0.5772156649
 
 

@@ -27,10 +27,11 @@ RATIO_IN_WORDS = "lambda ratio by closed forms"
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
 WIDENED = "read f with its interval, which is wider for that"
 
-# Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width.
+# Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width. A
+# choice.
 NEGLIGIBLE_DISTANCE = 0.01
 
-# Factor on the bounds far outside the range of the campaign.
+# Factor on the bounds far outside the range of the campaign. A choice: nothing was measured there.
 MOST_WIDENING = 3.0
 
 # How far [-], in ln, an oil with a shear law that no solved case has is taken to be outside: the bounds are twice as wide. Not

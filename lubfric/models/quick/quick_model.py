@@ -43,7 +43,8 @@ from .strips_on_long_cells import (
     solve_on_long_cells,
 )
 
-# Strips at rest, about, on which an estimate of the work rests: at most there are `MOST_STRIPS`.
+# Strips at rest, about, on which an estimate of the work rests: at most there are `MOST_STRIPS`. A choice: the middle
+# of 1 to `MOST_STRIPS`.
 EXPECTED_STRIPS = 2
 
 BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"

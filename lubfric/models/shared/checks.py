@@ -28,10 +28,11 @@ LAMINAR = 1000.0
 # bearings; not measured here.
 TURBULENT = 2000.0
 
-# Reduced Reynolds number (rho U h/eta) h/b from which inertia counts: it is the ratio of inertia to viscous forces.
+# Reduced Reynolds number (rho U h/eta) h/b from which inertia counts: it is the ratio of inertia to viscous forces. A
+# choice: a tenth.
 INERTIA = 0.1
 
-# Slide-roll ratio beyond which the surfaces move against one another.
+# Slide-roll ratio beyond which the surfaces move against one another. It follows from u1 u2 < 0.
 OPPOSED = 2.0
 
 # Density of an oil [kg/m³], where none is given: that of a mineral oil at 30 °C (oils.toml).
@@ -44,7 +45,7 @@ ROELANDS_LIMIT = 1e9
 # decides a warning, no number.
 BARUS_LIMIT = 3e8
 
-# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %.
+# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice.
 THICK_FILM = 0.1
 
 # Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning, no

@@ -32,24 +32,24 @@ from .checks import (
 from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS
 from .violation import Assumption, Violation
 
-# Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
+# Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress. A choice.
 STRIP_NODES = 201
 
-# Half-width of the Hertz strip over R from which a parabola for the circle is off: by b²/(4 R²) = 0.25 % of the
-# height.
+# Half-width of the Hertz strip over R from which a parabola for the circle is off: by b²/(4 R²) = 0.25 % of the height.
+# A choice.
 WIDE_STRIP = 0.1
 
 # Half-width of the Hertz strip over R from which a half-space means nothing. Not measured: a convention.
 WIDEST_STRIP = 0.5
 
-# Rms slope from which slopes are not small: the contact is solved for infinitesimal ones, which errs by the square,
-# 25 %.
+# Rms slope from which slopes are not small: the contact is solved for infinitesimal ones, which errs by the square, 25
+# %. A choice.
 STEEP = 0.5
 
 # Rms slope of no real surface: heights or spacing are in a wrong unit. Not measured: a convention.
 REFUSED_SLOPE = 1.5
 
-# Cells in a correlation length below which a map is noise: independent cells have 0.63.
+# Cells in a correlation length below which a map is noise: independent cells have 0.63. A choice, a little above.
 NOISE = 0.8
 FILTERED = "lines in the right order, or surface.s_filter"
 

@@ -20,17 +20,17 @@ from .heat import film_lubricant
 # docs/start.md).
 OF_RESISTANCE = 0.08
 
-# Least of these errors.
+# Least of these errors. A choice: twice what was seen.
 LEAST_OF_RESISTANCE = 0.02
 
-# Largest of these errors.
+# Largest of these errors. A choice: more than twice what was seen.
 MOST_OF_RESISTANCE = 0.15
 
 # Share of the load on the film, at least, at which its resistance is solved: below it, the resistance is too small to
-# matter beside friction.
+# matter beside friction. A choice.
 LEAST_FILM_SHARE = 1e-3
 
-# Relative tolerance of the film.
+# Relative tolerance of the film. A choice, far below the error of this resistance.
 RESISTANCE_TOLERANCE = 3e-3
 
 

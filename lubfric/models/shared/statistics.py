@@ -16,20 +16,22 @@ SMOOTH_RATIO = 3.0
 # doubles each. Twice as many change the width of an interval by 1 %.
 MOST_BLOCKS = 32
 
-# Blocks of the wanted length; a line with fewer is cut into shorter ones.
+# Blocks of the wanted length; a line with fewer is cut into shorter ones. A choice, judged as `MOST_BLOCKS`.
 ENOUGH_BLOCKS = 8
 
-# Blocks, below which the error is not known: four degrees of freedom.
+# Blocks, below which the error is not known: four degrees of freedom. A choice, judged as `MOST_BLOCKS`.
 LEAST_BLOCKS = 5
 
-# Correlation lengths along y in a block, wanted: neighbouring blocks share 6 % of their variance (`SHARED_LENGTH`).
+# Correlation lengths along y in a block, wanted: neighbouring blocks share 6 % of their variance (`SHARED_LENGTH`). A
+# choice: longer blocks are fewer.
 WANTED_BLOCK_LENGTH = 9.0
 
 # Correlation lengths along y in a block, at least: neighbouring blocks share 11 % of their variance (`SHARED_LENGTH`).
+# A choice: longer blocks are fewer.
 LEAST_BLOCK_LENGTH = 5.0
 
 # Correlation lengths of a block that are as those of its neighbour: ∫ |y| exp(-y²) dy/∫ exp(-y²) dy, of a Gaussian
-# correlation.
+# correlation. It follows from these integrals.
 SHARED_LENGTH = 1 / math.sqrt(math.pi)
 
 # Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only.
@@ -40,13 +42,13 @@ STRIPS_SAFETY = 1.3
 LEAST_GROWTH = 1.5
 
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
-# guide further.
+# guide further. A choice: more may solve strips in vain, less takes more rounds.
 SAMPLE_GROWTH = 4.0, 8.0
 
-# Confidence of the intervals.
+# Confidence of the intervals. A convention (GUM, as in docs/uncertainty.md).
 CONFIDENCE = 0.95
 
-# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96.
+# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96. A choice.
 FREEDOM_NOT_COUNTED = 30
 
 # Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N

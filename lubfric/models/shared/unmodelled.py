@@ -32,29 +32,32 @@ WARMER = 10.0
 # f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
 
-# Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s.
+# Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s. Measured there.
 GAP_IN_CONTACT = 1.6
 
-# Film over Sq from which the motion of roughness has little effect.
+# Film over Sq from which the motion of roughness has little effect. A choice: the lambda ratio of full-film
+# lubrication.
 FILM_THAT_HIDES_ROUGHNESS = 3.0
 
-# E' [Pa] below which a body is a covered roller or a seal.
+# E' [Pa] below which a body is a covered roller or a seal. A choice, between polymers and metals.
 SOFT_E_PRIME = 5e9
 
-# Half-widths of the Hertz strip that a cover must be thick to count as a half-space.
+# Half-widths of the Hertz strip that a cover must be thick to count as a half-space. A choice: the stress of a line
+# contact falls with the depth, to .2 of its largest there.
 DEEP = 5.0
 
-# Least share of asperities or film of the load that is scaled to that of a result.
+# Least share of asperities or film of the load that is scaled to that of a result. A choice, against a division by 0.
 LEAST_SCALED_SHARE = 1e-6
 
-# Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has
-# fallen to 4 % of its largest there.
+# Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has fallen to 4 % of
+# its largest there. A choice.
 UPSTREAM = 4.0
 
-# Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder.
+# Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder. It
+# follows from Reynolds' equation (Swift-Stieber).
 REYNOLDS_RUPTURE = 0.475
 
-# Part of f by asperities below which the film makes it.
+# Part of f by asperities below which the film makes it. A choice.
 LEAST_ASPERITY_PART = 0.1
 
 
@@ -63,9 +66,10 @@ GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f d
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
+# Chosen by these, with a margin.
 POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
 
-# Times the guess of mu between which that of a result may lie.
+# Times the guess of mu between which that of a result may lie. A choice: a factor of 2.
 SHEARS = (0.5, 1.0, 2.0)
 
 UnmodelledEffect = tuple[str, float, str]  # the effect; likely change of f, relative (NaN: not known); what to do

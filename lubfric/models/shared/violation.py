@@ -17,7 +17,7 @@ from .wording import distinct_texts
 _VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
 # What is between the texts of a cell.
 TEXT_SEPARATOR = " | "
-# Runs of points that are named in one sentence, at most.
+# Runs of points that are named in one sentence, at most. A choice, for a sentence that can be read.
 MOST_PLACES = 12
 
 
