@@ -229,7 +229,7 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
 def plot_history(
     path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
 ) -> None:
-    """Draw speed and load, film, load ratios, f and, where it is known, the power loss over time, from the columns of
+    """Draw speeds and load, film, load ratios, f and, where it is known, the power loss over time, from the columns of
     history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
@@ -237,9 +237,10 @@ def plot_history(
     heights = [2.2, 2.2, 2.2, 2.6, *([2.2] if has_power else [])]
     figure = figures.new_figure(figsize=options.size(heights))
     first, second, third, fourth, *others = figure.subplots(len(heights), 1, sharex=True)
-    first.plot(t, c["entrainment_speed"], color="k")
+    first.plot(t, c["entrainment_speed"], color="k", label="entrainment speed $U$")
+    first.plot(t, c["sliding_speed"], color=figures.BLUE, ls=":", label="sliding speed $u_2 - u_1$")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
-    first.set_ylabel("entrainment speed U (m/s)")
+    first.set_ylabel("speed (m/s)")
     figures.head(figure, title if options.has_title else "")
     load = first.twinx()
     load.grid(visible=False)
@@ -259,7 +260,7 @@ def plot_history(
             second.plot(t, c[name] * scale, label=label, **style)
     second.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
     figures.load_shares(third, t, c["contact_load"] / c["load"])
-    for axes in (second, third):
+    for axes in (first, second, third):
         figures.key_above(axes)
     low, high = (c.get(f"interval_{end}", np.zeros(0)) for end in ("low", "high"))
     if np.isfinite(low).any():

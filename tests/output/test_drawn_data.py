@@ -264,7 +264,8 @@ def test_a_history_is_drawn_by_its_table(figures):
     columns |= {"boundary_force": 0 * t + 0.1, "couette_force": 0 * t + 0.04, "rolling_force": 0 * t + 0.01}
     plot_history("x.png", columns, "title")
     first, second, third, fourth, load = figures[0].axes
-    np.testing.assert_allclose(first.lines[0].get_data(), [[0, 10, 20], [0.1, -0.2, 0.3]])
+    np.testing.assert_allclose(data(first, "entrainment speed $U$"), [[0, 10, 20], [0.1, -0.2, 0.3]])
+    np.testing.assert_allclose(data(first, "sliding speed $u_2 - u_1$"), [[0, 10, 20], [0.2, 0.2, 0.2]])
     np.testing.assert_allclose(load.lines[0].get_data(), [[0, 10, 20], [5, 6, 8]])
     for label, least in (
         ("central separation", 100.0),
