@@ -5,12 +5,14 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..models import AUTO, Model, model_named, models_that_may_answer
+from ..models.deterministic import State
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
 from .estimated import RunEstimate, estimated_deterministic, estimated_load_sharing
+from .load_sharing_solver import ContactStep
 from .model import Start
 from .start import check_load_sharing, start_load_sharing
 from .transient_deterministic import check_deterministic, start_deterministic
@@ -29,6 +31,7 @@ class RunModel:
     described : what computes the run of a scene, and which model-form error its interval has, as text
     model_in_words : the name of the model, as text
     solves_rough_film : whether its film is that between rough surfaces, whose smallest may be a gap that is assumed
+    state_class : the class of what a step hands to the next beside its unknowns, which is saved after every step
     """
 
     model: Model
@@ -38,6 +41,7 @@ class RunModel:
     described: Callable[[Scene], str]
     model_in_words: str
     solves_rough_film: bool
+    state_class: type
 
 
 def _load_sharing_in_words(scene: Scene) -> str:
@@ -54,6 +58,7 @@ LOAD_SHARING = RunModel(
     described=_load_sharing_in_words,
     model_in_words="load-sharing model",
     solves_rough_film=False,
+    state_class=ContactStep,
 )
 DETERMINISTIC_RUN = RunModel(
     model=model_named("deterministic"),
@@ -63,6 +68,7 @@ DETERMINISTIC_RUN = RunModel(
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     model_in_words="deterministic model",
     solves_rough_film=True,
+    state_class=State,
 )
 RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC_RUN}
 

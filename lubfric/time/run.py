@@ -14,18 +14,17 @@ from numpy.typing import ArrayLike
 from .._base import limited_work, unlimited_work, validate, with_default_errors
 from ..errors import InputError, WorkLimitError
 from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
-from ..models.deterministic import State
 from ..models.shared import Prepared, Violation, refused, scene_of
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
-from .load_sharing_solver import ContactStep
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .model import Output, TimeModel
-from .registry import estimated_run, run_model_of
+from .registry import RUNS, estimated_run, run_model_of
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
 
-RUN_CLASSES = classes_of(Progress, Output, ContactStep, Violation, State)  # that a state or an output may hold
+# Classes that a state or an output of a run may hold.
+RUN_CLASSES = classes_of(Progress, Output, Violation, *(run.state_class for run in RUNS.values()))
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
