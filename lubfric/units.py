@@ -26,10 +26,11 @@ from typing import Any
 from .errors import InputError
 
 ZERO_CELSIUS = Decimal("273.15")  # K
-# Decimals of a number that is printed with its interval, at most.
+# Decimals of a number that is printed with its interval, at most. A choice.
 MOST_DECIMALS = 7
 
-# Numbers without a unit below the one, or from the other on, are printed with a power of ten.
+# Numbers without a unit below the one, or from the other on, are printed with a power of ten. A choice, for numbers
+# that can be read.
 SMALLEST_PLAIN = 1e-4
 LARGEST_PLAIN = 1e6
 _TABLE = tomllib.loads((files(__package__) / "units.toml").read_text(encoding="utf-8"))
@@ -38,8 +39,9 @@ PEOPLE: dict[str, list[str]] = _TABLE["people"]
 SANE: dict[str, list[float]] = _TABLE["sane"]
 HV = UNITS["Pa"]["HV"]
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-LONGEST_TEXT = 200  # characters of a number with its unit
-# of conversions: that of the host may have any precision, and traps
+LONGEST_TEXT = 200  # characters of a number with its unit; a choice
+# Of conversions: that of the host may have any precision, and traps. 60 digits are a choice, far more than numbers
+# have.
 _EXACT = Context(
     prec=60, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX, traps=[DivisionByZero, InvalidOperation]
 )

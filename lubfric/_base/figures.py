@@ -29,6 +29,8 @@ RED = "#b3392f"
 GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
 FRICTION_LABEL = axis_label("coefficient")
+
+# Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
 KEY_LINE = 3.0  # letters: length of the lines in a key, such that dashes and dots differ
 LETTER = 3.8  # pt: width of a letter of that size, about

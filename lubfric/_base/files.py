@@ -26,7 +26,7 @@ except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
 
 # Begins a checked file; the SHA-256 of its content and a line feed follow.
 MARK = b"lubfric 1 "
-# Bytes before the content of a checked file: the mark, 64 hexadecimal digits, the line feed.
+# Bytes before the content of a checked file: the mark, 64 hexadecimal digits, the line feed. By definition of the file.
 HEAD = len(MARK) + 65
 # The file in a folder that its writer holds locked.
 LOCK = ".lubfric.lock"

@@ -19,29 +19,30 @@ from urllib.parse import urlsplit
 from ..errors import InputError
 from . import validate
 
-# Time between two looks at whether the command still lives [s].
+# Time between two looks at whether the command still lives [s]. A choice: less costs time, more leaves processes for
+# longer.
 WATCH = 0.2
 
-# Most processes of a command.
+# Most processes of a command. A choice: more than a machine has cores.
 MOST_WORKERS = 1024
 
-# Time that an interrupted process is waited for [s].
+# Time that an interrupted process is waited for [s]. A choice.
 LAST_WAIT = 2.0
 
-# Time that a scheduler has to answer [s].
+# Time that a scheduler has to answer [s]. A choice.
 CONNECT = 10.0
 
-# Time after which the client of a scheduler that answers is given up [s].
+# Time after which the client of a scheduler that answers is given up [s]. A choice.
 LONGEST_START = 60.0
 
 # Protocols of a scheduler over a connection of TCP; and those in which the client speaks first.
 SCHEMES = ("tcp", "tls", "ws", "wss")
 CLIENT_FIRST = ("tls:", "ws:", "wss:")
 
-# Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory.
+# Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory. A choice.
 IN_FLIGHT = 4096
 
-# Times that an executor may lose a job before it is done here.
+# Times that an executor may lose a job before it is done here. A choice.
 ATTEMPTS = 3
 
 ENDING = (signal.SIGINT, signal.SIGTERM)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import CONVERGED, ITERATION_LIMIT
 
-NEARER = 0.3  # of the value before: the secant leads on
+NEARER = 0.3  # of the value before: the secant leads on. A choice
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,6 +21,8 @@ from .validate import nearest, shown
 
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_TABLE_BYTES = 2**27  # of a table that is read at once. A convention
+
+# Limits by choice: what is longer is no table of numbers.
 TITLES = 1000  # lines of a preamble among which the headings are looked for
 LONGEST_LINE = 10_000  # characters of a line of a table of columns
 LONGEST_HEADING = 200  # characters

@@ -22,10 +22,12 @@ from ..units import SANE, UNITS, spelled, without_unit
 T = TypeVar("T")
 # Other words for the options of readers of height maps, in small letters, and what is meant by them.
 OTHER_OPTIONS = {"parabola": "quadratic", "tilt": "plane", "remove": "mask"}
+
+# Limits of messages and numbers, by choice.
 LONG_NUMBER = 31  # bits of a number that is shown as a power of two
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
-# of any number: beyond it powers of it overflow
+# Of any number: a choice, beyond which powers of it overflow.
 SMALLEST_NUMBER = 1e-100
 LARGEST_NUMBER = 1e100
 NUMBER_KINDS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates

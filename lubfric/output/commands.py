@@ -54,10 +54,12 @@ if TYPE_CHECKING:
     pass
 
 
-# exit codes, as shells count them: the second argument of a KeyboardInterrupt
+# Exit codes, the second argument of a KeyboardInterrupt: by definition of shells 128 and the number of the signal.
 INTERRUPTED = 130
 TERMINATED = 143
 _CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
+
+# Choices, for lines that can be read.
 SAY_EVERY = 1.0  # s between two lines of progress
 PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
 
@@ -168,7 +170,7 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
 
 
 UNFINISHED = "unfinished"
-MOST_TOML = 2**20  # bytes: a larger file names no inputs
+MOST_TOML = 2**20  # bytes: a larger file names no inputs; a choice
 # Options of commands that name files they read.
 INPUTS = ("scene", "surface", "counterface", "study", "measured", "points")
 

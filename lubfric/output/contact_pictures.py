@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..models.shared import Prepared
 
 
+# Choices, by looking at the figures.
 MOST_DRAWN_LENGTH = 3.0  # times as long along y as along x: no more is drawn whole
 SLENDER_PICTURE = 1.5  # times as long along y as along x: a narrow picture
 PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
@@ -34,6 +35,8 @@ INLET_PRESSURE = 0.01  # of the largest mean pressure along the line, from which
 SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
 CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
+
+# Choices, by looking at the figures.
 PANEL_RATIO = 0.9  # height over width of a panel of a narrow picture
 STACKED_RATIO = 0.5  # height over width of a map, below which maps are below each other
 STACKED_WIDTH = 6.5  # inch: of a map of these

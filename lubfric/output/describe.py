@@ -47,25 +47,27 @@ from ..time import (
 from ..units import plain_number, worded
 from .inputs import FACTS, input_rows
 
-# Speeds of many at which the work is counted, about.
+# Speeds of many at which the work is counted, about. A choice: fewer take less time, and estimate worse.
 SOME = 25
 
-# Speeds in the table, about.
+# Speeds in the table, about. A choice.
 TABLE_SPEEDS = 6
 
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
 # Sections of ``lubfric info`` before and after that table: first what a user looks for.
 BEFORE_TABLE = ("model", "transient", "validity")
 AFTER_TABLE = ("bodies", "lubricant", "motion", "surface", "contact", "effects not modelled")
-# Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, and those of pictures and files.
+# Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, and those of pictures and files. Measured on the
+# runs of `verification.campaigns.estimates`.
 COMMAND_SECONDS = 2.4
-# Processor seconds of pictures and files, of these.
+# Processor seconds of pictures and files, of these. Measured, as these.
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
-# Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine digits.
+# Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
+# digits. A choice.
 STANDSTILL_PART = 1e-8
-# Part of the power loss from which the rolling resistance in it is named.
+# Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01
 # Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the usual
 # limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).

@@ -18,7 +18,7 @@ from .contact_pictures import DrawnContact
 
 # Fields of `lubfric.models.ContactFields`, all on the same cells.
 FIELDS = ("heights", "pressure", "gap", "deflection", "film", "shear")
-SAME_SPEED = 1e-3  # relative: a speed as a user reads it, of three digits
+SAME_SPEED = 1e-3  # relative: a speed as a user reads it, of three digits; a choice
 OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "rubbing", "wet")  # of a `DeterministicResult`
 
 

@@ -15,7 +15,7 @@ from .picture_options import PictureOptions
 # Record of a fit.
 FIT = "fit.json"
 
-# Heights of the panels [inch] at the usual width: the curve, the residuals.
+# Heights of the panels [inch] at the usual width: the curve, the residuals. A choice, by looking at the figures.
 HEIGHTS = (4.3, 2.2)
 
 # What the picture takes of a record, arrays with one number for each point.

@@ -15,13 +15,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
+
+# Choices, by looking at the figures.
 PICTURE_WIDTH = 7.0  # inch: of a picture
 INCH = 0.0254  # m
 PRINTED_DPI = 300.0  # of a picture whose width is chosen: what journals ask for
 LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
 NARROW_PICTURE = 4.5  # inch: narrower pictures have smaller fonts
 LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
-# Size of lines and markers of a narrow picture over that of the usual one, of twice its width.
+# Size of lines and markers of a narrow picture over that of the usual one, of twice its width. A choice, by looking at
+# the figures.
 THINNER = 0.6
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..time import TransientResult
 
 
+# Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
 LONE = 2.0  # factor between a lone speed and the ends of its axis

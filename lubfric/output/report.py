@@ -51,15 +51,16 @@ OF_OUTPUT = {
 
 # What a smallest film of `FLOOR` is.
 GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
-# Relative rounding error of that gap as a mean over strips.
+# Relative rounding error of that gap as a mean over strips. A choice.
 FLOOR_ROUNDING = 1e-6
-# Rows of the table of a run in time, about.
+# Rows of the table of a run in time, about. A choice, for a table that can be read.
 HISTORY_ROWS = 13
 # Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
 # A number smaller than this times the largest of its column is 0 in a table: frequencies are written with nine digits.
+# A choice.
 TABLE_ROUNDING = 1e-8
 
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
@@ -68,17 +69,17 @@ FULL_FILM_PART = 0.01
 # Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
 MOST_STEP = 10.0
 
-# Factor on the speed, of which the change of f is stated.
+# Factor on the speed, of which the change of f is stated. A choice.
 FASTER = 1.1
 
 # Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
 LARGEST_BETWEEN = 0.5
 
-# Columns of a table that a narrow screen shows as they are.
+# Columns of a table that a narrow screen shows as they are. A choice, by looking at the report.
 NARROW_COLUMNS = 3
-# Columns of a table from which on its numbers may wrap, so that it fits a page.
+# Columns of a table from which on its numbers may wrap, so that it fits a page. A choice, by looking at the report.
 MANY_COLUMNS = 8
-MOST_GIVEN = 60  # characters of a value in the column of how an input was given
+MOST_GIVEN = 60  # characters of a value in the column of how an input was given; a choice, by looking at the report
 
 
 def report_page(

@@ -53,13 +53,15 @@ if TYPE_CHECKING:
 AXIS_SCALES = ("linear", "log")  # of an axis
 INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
 LEFT_OUT = ("warnings", "parts", "title")  # of a picture, where a user does not want them
+
+# Limits by choice, for a picture that can be read and drawn.
 NARROWEST = 0.05  # m: width of a picture
 LEAST_DPI = 50  # points of a picture per inch
 MOST_DPI = 1200  # points of a picture per inch
 WIDEST_PICTURE = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
-WORTH = 8  # speeds from which a second process gains more than it costs
-MOST_GAPS = 3  # gaps of a traction curve that are named
+WORTH = 8  # speeds from which a second process gains more than it costs; a choice: a process takes a second to start
+MOST_GAPS = 3  # gaps of a traction curve that are named; a choice
 
 
 def run_sweep(scene: Scene, arguments: Namespace) -> None:

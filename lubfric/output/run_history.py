@@ -18,15 +18,15 @@ from .progress import ProgressLine
 from .report import history_answer
 from .run_files import names_of_run
 
-# Part of the expected steps of a run between two lines of its progress.
+# Part of the expected steps of a run between two lines of its progress. A choice: some 25 lines.
 PART_OF_LINE = 0.04
 
 # Part of the expected steps that is done before the time left is stated; before it, the first steps, which are many and
-# short, decide it. In the run of a piston ring it is within a factor of 2 from there on.
+# short, decide it. In the run of a piston ring it is within a factor of 2 from there on. Measured so.
 PART_OF_TIME_LEFT = 0.08
 
 
-# Time without an output after which a line says how far the run is [s].
+# Time without an output after which a line says how far the run is [s]. A choice.
 MOST_SILENCE = 10.0
 
 

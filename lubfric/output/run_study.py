@@ -81,13 +81,13 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(message, report, result)
 
 
-# Time between two points up to which a process handed them over together [s].
+# Time between two points up to which a process handed them over together [s]. A choice.
 SECONDS_OF_A_BATCH = 0.2
 
-# Time after which points that come one after the other are counted anew for the time left [s].
+# Time after which points that come one after the other are counted anew for the time left [s]. A choice.
 LONGEST_BATCH = 5.0
 
-# Points of a study up to which each one gets a line on stderr.
+# Points of a study up to which each one gets a line on stderr. A choice.
 MOST_LINES = 200
 
 

@@ -19,19 +19,20 @@ if TYPE_CHECKING:
 
 STUDY_PICTURE = "study.png"
 
-# Heights of the pictures at the usual width [inch]: of curves, of a map, and of both panels of operating points.
+# Heights of the pictures at the usual width [inch]: of curves, of a map, and of both panels of operating points. Chosen
+# by looking at the figures.
 STUDY_HEIGHT = 4.5
 STUDY_MAP_HEIGHT = 5.0
 PAIRED_HEIGHTS = (3.25, 3.25)
 
-# Width of a panel, and of what is beside all of them [inch].
+# Width of a panel, and of what is beside all of them [inch]. Chosen by looking at the figures.
 PANEL_WIDTH = 2.9
 PANEL_MARGIN = 1.0
 
-# Points from which on those of a picture are small, and their intervals thin.
+# Points from which on those of a picture are small, and their intervals thin. A choice, by looking at the figures.
 MANY_POINTS = 40
 
-# Panels of the picture of a study, at most: one for each number that is varied.
+# Panels of the picture of a study, at most: one for each number that is varied. A choice, by looking at the figures.
 MOST_PANELS = 4
 
 

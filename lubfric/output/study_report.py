@@ -61,9 +61,9 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     ASPERITY_LOAD_RATIO: None,
 }
 
-# Digits of what is varied, which is exact.
+# Digits of what is varied, which is exact. A choice.
 CELL_DIGITS = 4
-# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f.
+# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice.
 DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
 # Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
@@ -77,7 +77,7 @@ IN_PURE_ROLLING = (
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")
 
-# Combinations of what is varied beside operating points whose means are reported, at most.
+# Combinations of what is varied beside operating points whose means are reported, at most. A choice.
 MOST_MEANS = 6
 CAPTION = "The results of the study"
 

@@ -31,9 +31,10 @@ import numpy as np
 
 from ..film import FilmProblem, log_mean_fluidity, moes_film
 
-# Largest distance [nodes] whose pressures are implicit: it changes only the time.
+# Largest distance [nodes] whose pressures are implicit: it changes only the time. A choice.
 BANDWIDTH = 8
-# Distance [nodes] from which the second difference of the kernel is a series.
+# Distance [nodes] from which the second difference of the kernel is a series. A choice: the series is exact to rounding
+# there.
 SERIES_DISTANCE = 20
 
 

@@ -17,9 +17,10 @@ from ..film import FilmProblem, step_length
 from . import differential_equations as equations
 from .differential_equations import DifferentialTerms, Mesh
 
-# GMRES vectors in one Newton step, at most.
+# GMRES vectors in one Newton step, at most. A choice, for memory.
 KRYLOV_LIMIT = 40
-# Share of the far deflection [-] that a Newton step may leave to the next one.
+# Share of the far deflection [-] that a Newton step may leave to the next one. A choice: more takes more Newton steps,
+# less more of GMRES.
 FORCING = 1e-2
 
 

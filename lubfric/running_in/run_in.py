@@ -27,22 +27,23 @@ from .wear import NM, Wear, estimated_wear, worn_in
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure.
+# Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure. A
+# choice: √(1 - 1/16) is .97.
 STEPS_OF_HALF_WIDTH = 2.0
-# Tolerance of the dry contact [-], at most: its overlaps become heights.
+# Tolerance of the dry contact [-], at most: its overlaps become heights. A choice: less takes more iterations.
 PASS_TOLERANCE = 1e-5
 # Processor seconds of an iteration of a contact of a pass, whatever its cells, and over its cells. These and the next three are
 # fitted to the counted work of 38 runs of `python -m verification.campaigns.estimates`; their time is 1.1 times as long.
 ITERATION_SECONDS = 1.5e-4
 ITERATION_CELL_SECONDS = 1.9e-8
 
-# Iterations of such a contact between bodies that do not flatten [-]; 8 to 55 in all, by a power of one plus the flattening over
-# the Hertz strip in Sq, within a fifth.
+# Iterations of such a contact between bodies that do not flatten [-]; 8 to 55 in all, by a power of one plus the
+# flattening over the Hertz strip in Sq, within a fifth. Measured.
 CONTACT_ITERATIONS = 9.4
 ITERATIONS_BY_FLATTENING = 0.32
 
-# Passes beyond the first until nothing sinks, over E' times a quarter of the rms slope, the scale of the asperity pressures
-# (`solved_ends_of_hardness`), over the hardness [-]: none at .25, two at .7, five at 2.3.
+# Passes beyond the first until nothing sinks, over E' times a quarter of the rms slope, the scale of the asperity
+# pressures (`solved_ends_of_hardness`), over the hardness [-]: none at .25, two at .7, five at 2.3. Measured so.
 PASSES_BY_YIELDING = 2.2
 
 # Parameters of a map in the table of a running-in, and their units.

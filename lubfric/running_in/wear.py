@@ -32,6 +32,7 @@ from ..units import converted, printed, unit_for
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+# Choices between time and error, or scatter.
 LIFT_OFF = 0.01  # asperity load ratio at which a surface counts as lifted off
 VANISHED = 1e-3  # asperity load ratio below which wear ends: what is left would take as long as all before
 CHANGE = 0.1  # relative change of the asperity load that a step aims at
@@ -46,16 +47,18 @@ RECORDS = 9  # distances at which friction and lift-off speed are found: 0, and 
 MOST_WINDOW_CELLS = 4_000_000  # of all windows together: memory
 SPEED_TOLERANCE = 5e-3  # of ln U, in the search of the lift-off speed
 LIFT_OFF_SEARCH = 12.0  # of ln U, each way from the scene's speed, in which the lift-off speed is looked for
-NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation
+NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation, by definition
 FEWEST_WEAR_WINDOWS = 4  # from which their scatter gives an interval
-NM = 1e9  # nanometres in a metre
-# Balances of a record: that of its own speed, and some ten of its lift-off speed (98 of nine records of a random run).
+NM = 1e9  # nanometres in a metre, by definition
+# Balances of a record: that of its own speed, and some ten of its lift-off speed (98 were measured in nine records of a
+# random run).
 BALANCES_OF_RECORD = 11
 
-# Records of a run whose asperities carry nothing, after which wear ends.
+# Records of a run whose asperities carry nothing, after which wear ends: the first and one after it. A choice.
 RECORDS_WITHOUT_LOAD = 2
 
-# Processor seconds of a balance, whatever its cells; and over its cells.
+# Processor seconds of a balance, whatever its cells; and over its cells. Measured on the runs of
+# `verification.campaigns.estimates`.
 BALANCE_SECONDS = 0.02
 BALANCE_CELL_SECONDS = 6e-7
 

@@ -28,7 +28,7 @@ LARGEST_RATIO = KEYS[SLIDE_ROLL_RATIO_KEY].most
 # What a table of f_b may be over, and the unit of that.
 FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}
 
-MOST_CONTACT_CELLS = 2**26  # cells of a contact grid
+MOST_CONTACT_CELLS = 2**26  # cells of a contact grid; a choice, for memory
 
 
 def pair(name: str, value: tuple[float, float], unit: str) -> tuple[Any, ...]:

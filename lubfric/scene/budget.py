@@ -5,7 +5,7 @@ of the film reaches f by a factor (`lubfric.models.load_sharing.Response.per_fil
 is divided.
 """
 
-# shares of the tolerance on f
+# Shares of the tolerance on f. Choices: a larger one leaves less to the others, a smaller one takes more work.
 FILM_GRID = 0.3  # grid of the film
 FILM_ALONE = 0.6  # the same where there is no contact
 SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
@@ -17,19 +17,19 @@ HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
 INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
 
-# what is never required of a solver, however little or much of its error reaches f
+# What is never required of a solver, however little or much of its error reaches f. Choices: looser ones may leave a
+# solver without a solution nearby, tighter ones meet rounding.
 LOOSEST_FILM = 0.03
 TIGHTEST_FILM = 2e-4
-# the first of the central film, if that is thinner than the mean one
-LOOSEST_VOLUME = 0.02
-TIGHTEST_VOLUME = 1e-7
+LOOSEST_VOLUME = 0.02  # of the central film, if that is thinner than the mean one
+TIGHTEST_VOLUME = 1e-7  # of the mean gap
 TIGHTEST_CONTACT = 1e-9  # of the length in which the contact's solver measures the gap
 MOST_FILM_CELLS = 1536  # of a film whose shear stress is not resolved
 SLOPE = 0.3  # error of the slope by which a balance is corrected for its cells and for what its root left open
 MOST_MOVED = 0.1  # of ln(F_H/F_C), by that correction: a light contact follows it exponentially
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
-# the most that holds where f has not been looked at yet: see `Numerics.tolerance_of`
+# The most that holds where f is not known yet (`Numerics.tolerance_of`). Choices, as above.
 FIRST_FILM = 0.01
 FIRST_CONTACT = 1e-3
 FIRST_VOLUME = 1e-3

@@ -28,6 +28,7 @@ from .sections import (
 )
 from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
 
+# Limits by choice: a longer file or path is no scene, and a less alike name is another one.
 MOST_SCENE_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
 NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other

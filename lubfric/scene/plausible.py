@@ -64,7 +64,7 @@ FAR_ABOVE_OF_RADII = 2.0
 LEAST_PART_OF_HISTORY = 0.02
 # Periods in a run above which the same is likely. A convention: two show a periodic motion.
 MOST_PERIODS_OF_RUN = 100.0
-# Numbers from here on are refused where they are read, and are no slip of a unit.
+# Numbers from here on are refused where they are read, and are no slip of a unit. A choice, below the largest number.
 MOST_READ = 1e300
 
 

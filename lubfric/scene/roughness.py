@@ -18,7 +18,7 @@ OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": 
 OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
 HONED = ("sk", "spk", "svk", "honing_angle", "groove_width")  # fields of a plateau-honed map
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize", *HONED)  # fields of a generated map
-SAME_SQ = 1e-9  # relative difference of two Sq that are one
+SAME_SQ = 1e-9  # relative difference of two Sq that are one; a choice, above rounding
 
 
 @dataclass(frozen=True, repr=False)

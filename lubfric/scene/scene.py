@@ -26,7 +26,7 @@ from .transient import HISTORY_KINDS, Transient
 
 # Keys of [motion] that state the sliding.
 SLIDING_KEYS = {"slide_roll_ratio", "slip_percent", "surface_speeds"}
-LONGEST_NAME = 500  # characters of the name of a scene
+LONGEST_NAME = 500  # characters of the name of a scene; a choice
 VALUES_OF_RESOLVED_GAP = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),
@@ -37,8 +37,9 @@ VALUES_OF_RESOLVED_GAP = (  # key, the values that the deterministic model takes
 # Keys that a scene may leave out, and models then take a value of their own in a range that counts in the interval of f
 # (`ModelAnswer.not_given`).
 ASSUMED_IN_A_RANGE = (BOUNDARY_FILM_KEY,)
-# Pa: least limit at ambient pressure in the deterministic model. Oils have some 1 MPa; with .1, .01 and .001 MPa f of the
-# scene "paper" at .03 m/s is .058, .064 and .071, and with 0 the inlet has no viscosity
+# Pa: least limit at ambient pressure in the deterministic model. Oils have some 1 MPa; with .1, .01 and .001 MPa f of
+# the scene "paper" at .03 m/s is .058, .064 and .071, and with 0 the inlet has no viscosity. A choice below what oils
+# have.
 LEAST_OFFSET = 1e4
 
 

@@ -19,7 +19,10 @@ HISTORIES = {  # what may change in time, and the key that has it where it does 
 }
 UNITS_OF_HISTORIES = {name: KEYS.get(key, KEYS["speed"]).unit for name, key in HISTORIES.items()}
 MOST_LAPS = 1e5  # periods of a history in a run. A convention
-HISTORY_LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
+
+# Least and largest value of a history, by its unit: a choice, against slips of units.
+HISTORY_LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}
+
 HISTORY_KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 
 WORDS = ("kind", "file", "column", "time_column")  # keys of histories that are no numbers

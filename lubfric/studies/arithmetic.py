@@ -11,6 +11,7 @@ import scipy
 from .._base import __version__
 
 # Length of the vectors, and rows of the matrices, of the trial sums: long enough that BLAS splits them by its threads.
+# A choice.
 TRIAL_LENGTH = 40_000
 ROWS = 256
 

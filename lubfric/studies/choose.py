@@ -20,62 +20,69 @@ from .interpolate import FEWEST_SPEEDS, Interpolant, through
 AUTO_SPEEDS = "auto"
 
 # Relative distance of two speeds, or slide-roll ratios, that are one point: f cannot tell them apart, and a curve
-# through both would have any slope.
+# through both would have any slope. A choice, between rounding and steps that a user wants.
 ALIKE = 1e-6
 
-# Most speeds that a curve chooses.
+# Most speeds that a curve chooses. A choice: a bound of the work.
 MOST_CHOSEN_SPEEDS = 25
 
-# Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication.
+# Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication. A choice: less costs speeds
+# that show f_b alone.
 THIN = 0.02
 
-# Moes' film of the whole load over Sq at the fast end of a curve: full-film lubrication.
+# Moes' film of the whole load over Sq at the fast end of a curve: full-film lubrication. A choice, twice that of
+# lift-off.
 FULL_FILM_RATIO = 10.0
 
-# Moes' film of the whole load over Sq where the asperity load ratio is about 0.9, 0.5 and 0.
+# Moes' film of the whole load over Sq where the asperity load ratio is about 0.9, 0.5 and 0. A choice: others begin the
+# search elsewhere.
 MIXED_FILM_RATIOS = (0.5, 1.5, 4.5)
 
 # Moes' film of the whole load over Sq at the speeds that a curve chooses, about, for estimates of time: 16 random curves of
 # `python -m verification.campaigns.estimates` have 11 to 15 points, 197 in all, two fifths of them above 1.5.
 EXPECTED_FILM_RATIOS = (0.07, 0.2, 0.5, 0.85, 1.15, 1.5, 2.1, 2.7, 4.5, 5.2)
 
-# Speeds that a curve chooses, about: these and both ends.
+# Speeds that a curve chooses, about: these and both ends. A choice.
 EXPECTED_SPEEDS = 12
 
-# Speeds to begin with.
+# Speeds to begin with. It follows from both ends and `MIXED_FILM_RATIOS`: a choice.
 BEGIN = 5
 
-# Speeds [m/s] between which the ends of a curve are searched.
+# Speeds [m/s] between which the ends of a curve are searched. A choice: no contact moves slower or faster.
 SLOWEST_SEARCHED = 1e-9
 FASTEST_SEARCHED = 1e3
 
-# Ratio of the slowest film without contact to lift-off up to which lift-off is known.
+# Ratio of the slowest film without contact to lift-off up to which lift-off is known. A choice: less takes a further
+# point.
 LIFT_OFF_KNOWN_ABOVE = 1.2
 
-# Speed over lift-off at which a film without contact is solved.
+# Speed over lift-off at which a film without contact is solved. A choice: nearer it may meet contact.
 ABOVE = 1.1
 
-# Ratio of the fastest contact to lift-off from which the end of the contact is known.
+# Ratio of the fastest contact to lift-off from which the end of the contact is known. A choice: more takes a further
+# point.
 CONTACT_END_KNOWN_FROM = 0.75
 
-# Speed over lift-off at which a contact is solved.
+# Speed over lift-off at which a contact is solved. A choice: nearer it may meet no contact.
 SPEED_BELOW_LIFT_OFF = 0.86
 
-# Ratio of neighbouring speeds without contact from which one between them is solved.
+# Ratio of neighbouring speeds without contact from which one between them is solved. A choice: f of a film is smooth
+# over the speed.
 MOST_SPEED_RATIO = 12.0
 
-# Speeds within a tenth of a requested one from which no more are solved there.
+# Speeds within a tenth of a requested one from which no more are solved there. A choice: a third does not move a place
+# that scatters.
 ENOUGH_SPEEDS = 2
 
-# Part of the tolerance that the estimated error may reach where fewer speeds than `MANY_SPEEDS` are solved: an estimate from
-# few points is uncertain by a factor of about two.
+# Part of the tolerance that the estimated error may reach where fewer speeds than `MANY_SPEEDS` are solved: an estimate
+# from few points is uncertain by a factor of about two. A choice: that factor.
 ESTIMATE_SHARE = 0.5
 MANY_SPEEDS = 11
 
-# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed.
+# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed. A choice.
 LEAST_SPEED_RATIO = 1.015
 
-# Speeds at which the error between the points is estimated.
+# Speeds at which the error between the points is estimated. A choice: finer than any two speeds of a curve.
 GRID = 400
 
 

@@ -22,7 +22,7 @@ from .._base import Renamed, Shown
 
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
-LENGTH_BYTES = 8  # bytes of the length of the tree
+LENGTH_BYTES = 8  # bytes of the length of the tree; by definition of the format
 DTYPE = re.compile(r"[<>|=][biufc]\d{1,2}|[<>=]U\d{1,6}")  # of arrays: numbers and texts, never objects
 ACCEPTED = {float: (float, int, np.floating, np.integer), int: (int, np.integer), bool: (bool, np.bool_)}
 

@@ -26,10 +26,10 @@ from .study_table import StudyTable
 # with 170 of them in sight, and 73 % of the other 33 are.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 
-# Scenes of a study that are made ready to count their cells.
+# Scenes of a study that are made ready to count their cells. A choice between time and what is seen.
 SAMPLED = 8
 
-# Values of a key that are named one by one.
+# Values of a key that are named one by one. A choice, for a line that can be read.
 LISTED = 4
 
 

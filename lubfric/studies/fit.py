@@ -25,29 +25,29 @@ from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobo
 from .store import opened
 from .vary import Between, unit_of
 
-# Last move of the parameters, as a share of the bounds, that ends the search.
+# Last move of the parameters, as a share of the bounds, that ends the search. A choice, far below what scatter moves.
 LAST_MOVE = 2e-3
 
-# Relative change of the sum of squares that ends the search.
+# Relative change of the sum of squares that ends the search. A choice, far below what scatter changes.
 LAST_CHANGE_OF_SUM = 1e-4
 
-# Most curves of the search, beside those of the differences.
+# Most curves of the search, beside those of the differences. A choice: a bound of the work.
 MOST_CURVES = 30
 
-# Curves of the search by the scene's own model, about, beside two for each parameter: 3 to 5 were computed for one parameter,
-# 5 for two.
+# Curves of the search by the scene's own model, about, beside two for each parameter: 3 to 5 were computed for one
+# parameter, 5 for two. Measured so.
 USUAL_CURVES = 2
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
 MOST_FITTED_MINIMA = 3
 
-# Corners of the bounds at which the work of a curve is counted.
+# Corners of the bounds at which the work of a curve is counted. A choice: those of four parameters.
 CORNERS = 16
 
-# Smallest relative error of f that may be stated.
+# Smallest relative error of f that may be stated. A choice, near rounding.
 LEAST_ERROR = 1e-6
 
-# Smallest change of the residuals over the bounds of a parameter that determines it.
+# Smallest change of the residuals over the bounds of a parameter that determines it. A choice, near rounding.
 LEAST_SLOPE = 1e-9
 
 # Keys that a traction curve is measured over.

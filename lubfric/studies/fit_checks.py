@@ -12,22 +12,24 @@ import numpy as np
 
 from .._base import FloatArray
 
-# Probability of the residuals, if the fit describes the data, below which it is said not to.
+# Probability of the residuals, if the fit describes the data, below which it is said not to. A convention.
 SIGNIFICANCE = 0.01
 
-# Probability by chance below which the residuals are said not to be random, and the fit perhaps not to describe the data.
+# Probability by chance below which the residuals are said not to be random, and the fit perhaps not to describe the
+# data. A convention.
 DOUBTED = 0.05
 
-# Random residuals with which those of a fit are compared; fixed, so that a fit is repeatable.
+# Random residuals with which those of a fit are compared; fixed, so that a fit is repeatable. A choice: a probability
+# of .01 is known to 10 % from them.
 RANDOM_RESIDUALS = 9999
 
-# Numbers in these, at most: more points are compared with fewer.
+# Numbers in these, at most: more points are compared with fewer. A choice, for memory.
 MOST_NUMBERS = 5_000_000
 
-# Fewest points of which the order is tested.
+# Fewest points of which the order is tested. A choice.
 FEWEST_OF_ORDER = 4
 
-# Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it.
+# Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it. A choice.
 LEAST_REST = 1e-3
 
 # Share of the sum of squares from which an offset or a factor is said to explain the residuals. A convention.
@@ -40,7 +42,7 @@ AS_LIKELY = 0.1
 # A convention: friction on rigs repeats within some 5 to 10 %.
 LARGEST_UNSTATED = 0.1
 
-# Residuals below this multiple of the numerical error of f are no sign of anything.
+# Residuals below this multiple of the numerical error of f are no sign of anything. A choice: twice.
 ABOVE_NUMERICAL = 2.0
 
 

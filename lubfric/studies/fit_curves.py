@@ -23,23 +23,25 @@ from .vary import Between
 # Relative scatter of data whose deviations are not stated, by which the tolerance of the solves is chosen.
 USUAL_SCATTER = 0.05
 
-# Numerical error of f over the scatter of the data: small beside it, and no smaller than needed.
+# Numerical error of f over the scatter of the data: small beside it, and no smaller than needed. A choice: added by
+# squares it is 2 %.
 SHARE_OF_SCATTER = 0.2
 
-# Smallest relative tolerance on f that a fit solves to.
+# Smallest relative tolerance on f that a fit solves to. A choice, for time.
 TIGHTEST = 1e-3
 
-# Step of the differences, as a share of the bounds: its effect on f stays above the tolerance of the solves.
+# Step of the differences, as a share of the bounds: its effect on f stays above the tolerance of the solves. A choice:
+# more bends over it.
 PARAMETER_STEP = 0.04
 
-# Points of a curve of the coarse search: enough to tell where in the bounds a minimum lies.
+# Points of a curve of the coarse search: enough to tell where in the bounds a minimum lies. A choice.
 COARSE_POINTS = 8
 
-# Tolerances of the coarse search over those of the fit, and the largest tolerance on f.
+# Tolerances of the coarse search over those of the fit, and the largest tolerance on f. A choice, for time.
 COARSER = 4.0
 COARSEST_TOLERANCE = 0.05
 
-# Sampling tolerance of the coarse search: that of the first strips, whatever it is.
+# Sampling tolerance of the coarse search: that of the first strips, whatever it is. A choice.
 COARSE_SAMPLING = 0.5
 
 

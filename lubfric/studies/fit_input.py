@@ -25,6 +25,8 @@ OTHER_AXIS = {  # what a column of another kind may be, by its unit
     "-": "a slide-roll ratio goes into slide_roll_ratio (--ratio)",
     "m/s": "a speed goes into speed (--speed)",
 }
+
+# Limits by choice.
 SHORTEST_RAMP = 2  # points of a ramp
 LARGEST_MEASURED = 2.0  # coefficient: clean metals in vacuum have more, no lubricated contact has
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm

@@ -15,7 +15,7 @@ from .._base import FloatArray
 from ..errors import LubfricError
 from .fit_curves import PARAMETER_STEP, FitCurves
 
-# Curves of one parameter beside those at its bounds, at most: the end of an interval takes five.
+# Curves of one parameter beside those at its bounds, at most: the end of an interval takes five. A choice above it.
 MOST_FOLLOWED = 12
 
 # Decrease of the sum of squares, as a share of it, from which a fit continues elsewhere. A convention.
@@ -25,14 +25,15 @@ LEAST_DECREASE = 0.01
 # ones. A convention.
 INTERPOLATED = 0.25
 
-# Positions between two curves at which interpolated residuals are compared, as a share of their distance.
+# Positions between two curves at which interpolated residuals are compared, as a share of their distance. A choice: it
+# costs no curve.
 BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
 
-# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little.
+# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little. A choice.
 WITHIN_CURVES = (0.3, 0.7)
 
 
-# Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum.
+# Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum. A choice.
 SMALLEST_STEP = 1e-9
 
 

@@ -22,23 +22,23 @@ from .vary import Between
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Probability of the intervals.
+# Probability of the intervals. A convention, as in all intervals.
 LEVEL = 0.95
 
 # Name of a fitted curve without a band.
 NO_BAND = "fit, which does not describe the data: no interval is valid"
 
-# Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it.
+# Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it. A choice.
 AT_BOUND = 5e-3
 
 # Move of the parameters by another sample of the surface, over half of their interval, up to which it is not reported. A
 # convention.
 UNREPORTED_MOVE = 0.01
 
-# Correlation of two parameters, without sign, above which it is reported.
+# Correlation of two parameters, without sign, above which it is reported. A convention.
 CORRELATED = 0.9
 
-# Other minima that are named in the text of a fit, at most.
+# Other minima that are named in the text of a fit, at most. A choice, for a text that can be read.
 MOST_NAMED_MINIMA = 3
 
 

@@ -16,23 +16,25 @@ import numpy as np
 from ..errors import LubfricError
 from .fit_curves import FitCurves
 
-# Points of the Sobol sequence for each parameter, before rounding up to a power of two; and at most.
+# Points of the Sobol sequence for each parameter, before rounding up to a power of two; and at most. A choice: more
+# finds narrower minima, and takes longer.
 SOBOL_PER_PARAMETER = 6
 MOST_SOBOL = 64
 
-# Curves at minima of the interpolation: for each parameter, beside two.
+# Curves at minima of the interpolation: for each parameter, beside two. A choice: a bound of the work.
 REFINEMENTS_PER_PARAMETER = 3
 
 # Curves at minima of the interpolation that are expected for each parameter: one and two parameters took one and two.
+# Measured so.
 USUAL_REFINEMENTS = 1
 
-# Starts of the minimisation of the interpolation, in a power of two: it costs no solve.
+# Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice.
 SURROGATE_STARTS = 16
 
-# Distance of two positions, as a share of the bounds, below which they are one minimum.
+# Distance of two positions, as a share of the bounds, below which they are one minimum. A choice.
 SAME_MINIMUM = 0.1
 
-# Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation.
+# Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation. A choice.
 KNOWN_DISTANCE = 0.01
 
 # Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher
@@ -40,10 +42,11 @@ KNOWN_DISTANCE = 0.01
 BETWEEN = np.linspace(0.05, 0.95, 19)
 LEAST_BARRIER = 1.02
 
-# A start at a bound is moved inside by this share of the bounds, for the differences.
+# A start at a bound is moved inside by this share of the bounds, for the differences. A choice: half of
+# `PARAMETER_STEP`.
 INSIDE = 0.02
 
-# Root mean square residual over the least one up to which another minimum is reported.
+# Root mean square residual over the least one up to which another minimum is reported. A choice.
 COMPARABLE = 1.5
 
 

@@ -21,26 +21,29 @@ from .._base import FloatArray
 from ..errors import InputError
 from ..quantities import counted
 
-# Fewest solved speeds of a curve.
+# Fewest solved speeds of a curve. A choice: two show no bend.
 FEWEST_SPEEDS = 3
 
-# Power of the speed over which the asperity load ratio is interpolated: about that of the film.
+# Power of the speed over which the asperity load ratio is interpolated: about that of the film. A choice: by Moes that
+# has .6 to 1.
 LOAD_RATIO_POWER = 0.6
 
-# Power of the remaining speed with which a contact ends: that of a Hertz asperity.
+# Power of the remaining speed with which a contact ends: that of a Hertz asperity. It follows from load ~
+# approach^(3/2) (Hertz 1882).
 HERTZ = 1.5
 
-# Other powers, whose effect is part of the estimated error.
+# Other powers, whose effect is part of the estimated error. A choice on both sides of it.
 OTHER_POWERS = (1.0, 2.0)
 
-# Power of the speed of a film, where one speed alone is known.
+# Power of the speed of a film, where one speed alone is known. A choice, as in `LOAD_RATIO_POWER`.
 FILM_POWER = 0.8
 
-# An estimate of lift-off below NEAR_CONTACT times a speed with contact is taken to be BEYOND times that speed.
+# An estimate of lift-off below NEAR_CONTACT times a speed with contact is taken to be BEYOND times that speed. A
+# choice: lift-off is above that speed.
 NEAR_CONTACT = 1.003
 BEYOND = 1.03
 
-# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated.
+# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated. A choice.
 EXTRAPOLATED_ERROR = 0.05
 
 # Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
@@ -53,29 +56,33 @@ WIDEST_BRACKET = 2.0
 NEAR_SPEEDS = 2.0
 FAR_SPEEDS = 7.4
 
-# Ratio of neighbouring speeds from which the line between the points is one of the curves compared.
+# Ratio of neighbouring speeds from which the line between the points is one of the curves compared. A choice: half a
+# decade.
 STRAIGHT_FROM = 3.3
 
-# Speeds among which the least f of a curve is searched.
+# Speeds among which the least f of a curve is searched. A choice: it costs no solve.
 MINIMUM_GRID = 1000
 
-# Error between the points, over that at a point which the curve through the others has: of near speeds, and of far ones.
+# Error between the points, over that at a point which the curve through the others has: of near speeds, and of far
+# ones. A choice: the omission of a point doubles the distance.
 BETWEEN_NEAR_POINTS = 0.5
 BETWEEN_FAR_POINTS = 2.0
 
-# Relative distance of the largest lift-off that is tried from the slowest speed without contact.
+# Relative distance of the largest lift-off that is tried from the slowest speed without contact. A choice, above
+# rounding.
 BELOW_SEPARATED = 1e-12
 
-# Film load ratio below which the traction coefficient of the film is not used.
+# Film load ratio below which the traction coefficient of the film is not used. A choice: below it the relative error of
+# that is large.
 LITTLE = 0.02
 
-# Asperity load ratio below which chance rules: how a contact ends is not read off such a point.
+# Asperity load ratio below which chance rules: how a contact ends is not read off such a point. A choice.
 LEAST_LOAD_RATIO = 2e-3
 
-# Smallest divisor of an error relative to f.
+# Smallest divisor of an error relative to f. A choice, near the smallest number.
 LEAST_POSITIVE = 1e-300
 
-# Film load ratio below which the film counts as carrying nothing.
+# Film load ratio below which the film counts as carrying nothing. A choice.
 NO_FILM_LOAD = 1e-9
 
 

@@ -17,27 +17,27 @@ from .interpolate import Interpolant
 # Speeds of a curve to which a law is fitted, in addition to those that were solved.
 FITTED_SPEEDS = 50
 
-# Relative error of a curve between its points, as it estimates it, up to which it is used.
+# Relative error of a curve between its points, as it estimates it, up to which it is used. A choice.
 USABLE_ERROR = 0.02
 
-# Fewest points of a law.
+# Fewest points of a law. A choice: more than the law has parameters.
 FEWEST_POINTS = 12
 
 MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 
-# Relative distance by which a number may lie outside a range.
+# Relative distance by which a number may lie outside a range. A choice, above rounding.
 ROUNDED = 1e-9
 
-# Largest friction of asperity contacts that carry the whole load, over f_b.
+# Largest friction of asperity contacts that carry the whole load, over f_b. A choice.
 OVER_REST = 1.1
 
-# Speed over the slowest one below which f falls to 0 at rest.
+# Speed over the slowest one below which f falls to 0 at rest. A choice.
 REST_SPEED_RATIO = 0.03
 
 # Walther's equation (ASTM D341), of the viscosity in mPa s.
 WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"
 
-# Smallest viscosity [Pa s] for which it has a value.
+# Smallest viscosity [Pa s] for which it has a value. A choice above it, for rounding.
 LEAST_VISCOSITY = 3.001e-4
 
 # The law: valid in Python and C, one name after the other.
@@ -55,14 +55,17 @@ CODE = {expression: compile(expression, "law", "eval") for expression in (WALTHE
 FUNCTIONS = {"sqrt": np.sqrt, "pow": np.power, "log10": np.log10, "__builtins__": {}}
 LOAD_RATIO_PARAMETERS = ("b", "U1", "n", "m", "r")
 FILM_PARAMETERS = ("C1", "k1", "C2", "k2")
+
+# Parameters that are searched in logarithms, the others as they are: bounds and starts by choice, far outside of what
+# curves have.
 POSITIVE = {
     "b": (1e-6, 10.0),
     "U1": (1e-15, 1e15),
     "n": (0.2, 10.0),
     "m": (0.2, 50.0),
     "r": (1e-6, 1e3),
-} | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))  # searched in logarithms, between these bounds
-EXPONENT_BOUNDS = np.array([-3.0, 3.0])  # bounds of the exponents
+} | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))
+EXPONENT_BOUNDS = np.array([-3.0, 3.0])
 START_PARAMETERS = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "n": 1.0, "m": 2.0, "r": 0.5}
 SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "Pa")}
 VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")

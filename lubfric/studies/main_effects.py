@@ -19,9 +19,10 @@ POINTS_FOR_EACH = 6
 MOST_CORRELATED = 0.3
 
 # Points at each value of an input, on average, from which these are groups; else a parabola is laid through all points.
+# A choice.
 POINTS_IN_GROUP = 2
 
-# Ratio of the largest to the smallest value from which a number counts by its logarithm.
+# Ratio of the largest to the smallest value from which a number counts by its logarithm. A choice.
 WIDE = 3.0
 
 

@@ -31,7 +31,7 @@ from .study_table import StudyTable
 from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
-# Points that a process of an executor receives at once.
+# Points that a process of an executor receives at once. A choice: more waits for longer, fewer cost messages.
 POINTS_AT_ONCE = 8
 
 

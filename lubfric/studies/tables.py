@@ -27,36 +27,41 @@ if TYPE_CHECKING:
 
     from .._base.tables import Columns
 
-OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
+# Column, times it in the interval (by definition), line.
+OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))
+
 BAND = "95 % interval"
-# Lines of a plot, at most.
+# Lines of a plot, at most. A choice, by looking at the figures.
 MOST_PLOTTED_LINES = 500
 
-# Lines of a plot that get a label, at most.
+# Lines of a plot that get a label, at most. A choice, by looking at the figures.
 NAMED = 10
 
-# Values of the first number that is varied that are named with their colour, at most; more are read off a bar.
+# Values of the first number that is varied that are named with their colour, at most; more are read off a bar. A
+# choice, by looking at the figures.
 NAMED_SHADES = 6
 
-# Part of the colours that are dark enough to be seen on white [-]: without yellow.
+# Part of the colours that are dark enough to be seen on white [-]: without yellow. A choice, by looking at the figures.
 DARK_SHADES = 0.85
 
-# Markers and dashes of the values of a second number that is varied, one pair for each; more values have none.
+# Markers and dashes of the values of a second number that is varied, one pair for each; more values have none. A
+# choice, by looking at the figures.
 STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
 
 # Quantities of operating points that jump, or have a minimum, where the direction of sliding changes.
 OF_SLIDING = "coefficient", "power_loss"
 
-# Points of a line between solved ones.
+# Points of a line between solved ones. A choice, by looking at the figures.
 LINE_POINTS = 200
 
-# Relative error of f between the points up to which a curve is drawn as a line or given as a formula.
+# Relative error of f between the points up to which a curve is drawn as a line or given as a formula. A choice: it
+# would not be seen.
 DRAWN_ERROR = 0.05
 
-# Width and height of the picture of a map [inch].
+# Width and height of the picture of a map [inch]. A choice, by looking at the figures.
 MAP_SIZE = (7.0, 5.0)
 
-# Values along both axes of a map from which it is drawn by contours.
+# Values along both axes of a map from which it is drawn by contours. A choice, by looking at the figures.
 CONTOUR_VALUES = 6
 
 

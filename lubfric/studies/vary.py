@@ -17,7 +17,7 @@ from ..units import check_all_have_units, in_si, without_unit
 
 SAMPLERS = ("sobol", "random")
 RANGE_SCALES = ("linear", "log")
-MOST_COMBINATIONS = 1_000_000  # combinations of a study, and points of a sample
+MOST_COMBINATIONS = 1_000_000  # combinations of a study, and points of a sample; a choice, for memory
 SPEED_KEYS = (
     "speed",
     "speeds",

@@ -15,7 +15,7 @@ from .scene_in_time import scene_at, transient_of, value_at
 from .start import speeds_of_run
 from .transient_deterministic import work_of_run
 
-# Tolerance of a step at which the steps of runs were counted [-].
+# Tolerance of a step at which the steps of runs were counted [-]. A choice: what `TIME_SHARE` gives by default.
 STEP_TOLERANCE = 3e-5
 
 # Steps while the speed changes by a factor of e, at that tolerance: 20 and 59 in the examples reciprocating and
@@ -29,25 +29,28 @@ SPARED_BY_FILM = 0.5
 # How many times as many steps the load takes: 13 in a light and slow contact, 60 in a ring of thick film.
 CHANGE_OF_LOAD = 0.5
 
-# How many times as many steps the radius takes, which moves the whole gap around the contact.
+# How many times as many steps the radius takes, which moves the whole gap around the contact. A choice, above that of
+# the load.
 CHANGE_OF_RADIUS = 3.0
 
-# Part of the largest speed below which the acceleration of a reversal is looked up.
+# Part of the largest speed below which the acceleration of a reversal is looked up. A choice, for an estimate.
 SLOW = 0.1
 
-# Part of the largest speed that counts as the smallest: a film at rest changes by squeeze alone.
+# Part of the largest speed that counts as the smallest: a film at rest changes by squeeze alone. A choice.
 SMALLEST_SPEED = 1e-3
 
-# Speeds between that and the largest one at which the film is estimated.
+# Speeds between that and the largest one at which the film is estimated. A choice: more takes longer, less errs more
+# between them.
 SPEEDS_OF_FILM = 16
 
-# Times in a period, or in a run without periods, at which its histories are compared.
+# Times in a period, or in a run without periods, at which its histories are compared. A choice: more takes longer, less
+# misses short events.
 TIMES_OF_PERIOD = 128
 
-# Periods that are looked at; the others are like them.
+# Periods that are looked at; the others are like them. A choice, for time.
 MOST_PERIODS = 100.0
 
-# Steps at the start of a run, and after each jump.
+# Steps at the start of a run, and after each jump. Measured in those runs.
 STEPS_OF_START = 30.0
 
 # Steps after each corner of a table, beside those of its change: 5, 5 and 6 for a wave through 11, 31 and 121 rows.
@@ -56,7 +59,8 @@ STEPS_OF_CORNER = 5.0
 # Processor seconds of the film in a step: 3 to 6 ms in 15 random runs of `python -m verification.campaigns.estimates`.
 FILM_STEP_SECONDS = 4e-3
 
-# Processor seconds of the contact in a step, over its cells: .5e-7 there in thin films, 1.2e-7 to 1.6e-7 in thicker ones.
+# Processor seconds of the contact in a step, over its cells: .5e-7 there in thin films, 1.2e-7 to 1.6e-7 in thicker
+# ones. Measured there.
 CELL_STEP_SECONDS = 1.3e-7
 
 

@@ -30,14 +30,15 @@ from ..film import FilmProblem, log_mean_fluidity
 from .film_grid import FixedGrid
 from .march import Memory
 
+# Gauss-Legendre rule on 0 to 1. 24 points are a choice: more take longer, fewer err where the pressure bends.
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _POINTS = 0.5 * (_POINTS + 1.0)
 _WEIGHTS = 0.5 * _WEIGHTS
 
 
-# relative distance from the inlet within which a node lies on it
+# relative distance from the inlet within which a node lies on it. A choice, by rounding.
 AT_INLET = 1e-9
-# pressure or load beyond an end without lubricant, and its derivatives by flow, squeeze rate and film
+# pressure or load beyond an end without lubricant, and its derivatives by flow, squeeze rate and film. By definition.
 NO_PRESSURE = (0.0, 0.0, 0.0, 0.0)
 
 

@@ -15,9 +15,9 @@ import numpy as np
 from .._base import FloatArray
 from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 
-# smallest cell / length of the pressure rise; growth with distance
-EDGE_CELL = 0.16
-EDGE_GROWTH = 0.3
+# Choices between work and error: the error of the steady start is measured in every run (`film_setting.NODE_FACTORS`).
+EDGE_CELL = 0.16  # smallest cell over the length of the pressure rise
+EDGE_GROWTH = 0.3  # of the cells with the distance from there
 EVEN_CELLS_WEIGHT_IN_TIME = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
 FAR_REACH = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 

@@ -14,6 +14,8 @@ from .film_equations import Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
 from .march import Memory, Step
 
+# Choices between work and error, in the unit that each names. What half and twice change: `python -m
+# verification.campaigns.constants lubfric.time`.
 NODE_FACTORS = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 NODE_DENSITY = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
 SLOWEST_RESOLVED = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
@@ -22,9 +24,10 @@ FIRST_TIME_PART = 1e-3  # of the time in which the surfaces pass the contact, af
 TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unless it is said
 LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 # Mass missing in a control volume over the flow that the motion drags through it [-] above which Newton's method takes
-# one more step: some hundred volumes then miss less than the limit of the balance of a run (`lubfric.time.result.MASS`).
+# one more step: some hundred volumes then miss less than the limit of the balance of a run
+# (`lubfric.time.result.MASS`). A choice.
 MISSING_FLOW = 1e-6
-SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
+SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load: a choice
 
 
 @dataclass(frozen=True, kw_only=True)

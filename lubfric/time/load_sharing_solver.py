@@ -16,6 +16,7 @@ from .film_equations import Spring
 from .film_setting import Setting
 from .march import Memory, Step
 
+# Choices: a share that is too far off costs further solves, and the last number ends them.
 FIRST_TOUCH = 1e-3  # [-] share of the load that is tried when the film has just become too thin for separated surfaces
 LAST_TOUCH = 1e-5  # [-] share of the load on the contact below which the film is tried without contact
 MOST_TRIALS = 16  # number of film and contact solves in one step, at most

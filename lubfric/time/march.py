@@ -25,11 +25,11 @@ from ..quantities import counted
 from ..scene import History
 from ..units import plain_number, worded
 
-# of the step; BDF2 is stable for growth below 2.41
-TIME_STEP_SAFETY = 0.85
-LEAST_TIME_STEP_RATIO = 0.2
-TIME_STEP_GROWTH = 2.0
-FAILED = 0.25  # step after a solve that failed
+# Choices: larger steps are rejected more often, smaller ones are more. BDF2 is stable for growth below 1 + √2.
+TIME_STEP_SAFETY = 0.85  # of the step that the error allows
+LEAST_TIME_STEP_RATIO = 0.2  # of a step to the one before
+TIME_STEP_GROWTH = 2.0  # the most of that ratio
+FAILED = 0.25  # of the step, after a solve that failed
 LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
 LEAST_TIME_STEP_PART = 1e-11  # of the duration: below it a step has failed for good
 SKIPPED_REST = 0.01  # of the time between two stops: another one is not wanted

@@ -44,24 +44,25 @@ from .march import Progress, Step
 from .moment_columns import ends_of_film, motion_columns, sense_of, sense_of_friction
 from .scene_in_time import scene_at, sliding_at
 
-NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
+NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest; a choice
 STEADY_ONLY = (
     "a run in time has no other deflection; compare it with the steady f, which has numerics.film_deflection = 'scaled'"
 )
-# Entrainment speed [m/s] of a film at rest, which was drawn in slowly.
+# Entrainment speed [m/s] of a film at rest, which was drawn in slowly. A choice.
 STANDSTILL_SPEED = 1e-6
 
-# Step of ln F_H [-] for the slope of the film over its load.
+# Step of ln F_H [-] for the slope of the film over its load. A choice: the slope changes slowly.
 LOG_LOAD_STEP = 0.05
 
 
-# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then.
+# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then. A choice.
 SMALL_FRICTION = 0.01
 
-# Cells beyond the last node with pressure to which the rupture of the film is extrapolated, at most.
+# Cells beyond the last node with pressure to which the rupture of the film is extrapolated, at most. A choice, against
+# noise.
 MOST_OF_CELL = 2.0
 
-# Force [N] by which nothing is divided.
+# Force [N] by which nothing is divided. A choice, near the smallest number.
 TINY_FORCE = 1e-300
 
 

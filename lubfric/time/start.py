@@ -23,6 +23,7 @@ from .model import Start
 from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
 from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
+# Speeds of a run at which its assumptions are checked: a choice between time and what is seen.
 JUDGED_SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST_JUDGED = 1e-3  # of the fastest: slower ones are boundary lubrication
 SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says

@@ -59,6 +59,7 @@ from .moment_columns import ends_of_film, motion_columns, sense_of_friction
 from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
 from .start import check_start
 
+# Choices between work and error, and limits for time and memory.
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
 MOST_NEWTON_STEPS_IN_TIME = 25  # Newton steps in a step
@@ -67,7 +68,8 @@ LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what res
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 # Steps beside those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20 outputs.
 OTHER_STEPS = 5
-# Processor time of a step over its counted work by the steps of a steady point, about.
+# Processor time of a step over its counted work by the steps of a steady point, about. Measured in runs of `python -m
+# verification.campaigns.estimates`.
 STEP_SECONDS = 0.7
 MOST_PASSED_CELLS = 100_000  # by which the roughness may move in a run
 TRAVEL_TIMES = 20_001  # times at which the speeds are looked up to find the steps

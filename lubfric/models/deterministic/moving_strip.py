@@ -121,7 +121,7 @@ class MovingEffort:
     discarded_again: float
 
 
-# Effort by choice: what looser steps change of f is measured at `ECONOMICAL`.
+# Both efforts are choices between work and error; docs/deterministic.md has what each value changes.
 TIGHT = MovingEffort(
     residual=1e-4,
     carries_imbalance=False,
