@@ -10,7 +10,7 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import Shown, validate
+from .._base import Renamed, Shown, validate
 from ..errors import InputError
 from .oil import Oil
 from .shear_laws import FLOW_LAWS, LIMIT_LAWS, LimitingStress, ShearLaw
@@ -35,7 +35,7 @@ AS_BOUNDARY = "f_b"
 
 
 @dataclass(frozen=True, repr=False)
-class Lubricant(Shown):
+class Lubricant(Renamed, Shown):
     """A lubricant at one temperature.
 
     Parameters
@@ -90,6 +90,7 @@ class Lubricant(Shown):
     inlet_film: float | None = None
     carreau: tuple[float, float] | None = None
     shear_modulus: float | None = None
+    _RENAMED = {"newtonian": "has_unlimited_stress"}
 
     def __post_init__(self) -> None:
         stated = self._state_limit()

@@ -43,7 +43,14 @@ class Prepared(FieldsOnly, Renamed, Shown):
     violations: tuple[Violation, ...] = ()
     has_given_map: bool = False
     has_given_contact: bool = False
-    _RENAMED = {"contact": "rough_contact", "known": "violations", "given": "is_given"}
+    _RENAMED = {
+        "contact": "rough_contact",
+        "known": "violations",
+        "given": "is_given",
+        "strips": "sample",
+        "joint": "has_one_map_for_all_bodies",
+        "remembered": "memo",
+    }
 
     @property
     def is_given(self) -> bool:
