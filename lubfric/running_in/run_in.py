@@ -382,14 +382,15 @@ def estimated_run_in(scene: Scene, *, distance: float = 0.0, wear_coefficient: f
     """Return the estimated processor seconds of `run_in`; arguments as there. The map is made, and nothing is solved."""
     wear_of = _checked_wear(scene, distance, wear_coefficient, None)
     before = _whole(scene, None)
+    assert scene.bodies.hardness is not None  # `_whole` refuses a scene without
     operator = operator_under(before.heights, before.spacing, cylinder_of(scene), scene.numerics.workers)
     ends = 1 + 2 * sum(name == "bodies.hardness" for name, *_ in scene.ranges)
     iterations = CONTACT_ITERATIONS * (1 + flattening(scene, max(before.sq, 1e-12))) ** ITERATIONS_BY_FLATTENING
     solve = iterations * (ITERATION_SECONDS + ITERATION_CELL_SECONDS * math.prod(operator.shape))
-    yielding = scene.bodies.e_prime * rms_slope(before)[2] / 4 / scene.bodies.hardness
+    yielding = float(scene.bodies.e_prime * rms_slope(before)[2] / 4 / scene.bodies.hardness)
     passes = 1 + PASSES_BY_YIELDING * yielding
     seconds = passes * len(_way(scene, before, None)) * solve
     if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
         hardness = wear_of["hardness"][0]
         seconds += estimated_wear(scene, before, wear_of["distance"], wear_of["coefficient"], hardness)
-    return ends * seconds
+    return float(ends * seconds)
