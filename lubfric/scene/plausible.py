@@ -150,9 +150,10 @@ def likely_unit(name: str, value: float, *, is_text: bool = False) -> str:
 
 def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
     """Return the values of a scene that are outside their usual range, or of a doubtful convention: those that the user
-    wrote by the keys that he wrote, then those that follow from others."""
+    wrote by the keys that he wrote, then those that follow from others. A slide-roll ratio that follows from speeds is in no
+    doubtful unit, whatever its value."""
     unusual = [_of_convention(key, written) or _unusual(key, written) for key, written in scene.doubtful]
-    stated = {name for key, _ in scene.doubtful for name in fields_of_key(key)}
+    stated = {name for key, _ in scene.doubtful for name in fields_of_key(key)} | {SLIDE_ROLL_RATIO_KEY}
     for name in KEYS:
         section, _, key = name.rpartition(".")
         if name in stated:
@@ -242,7 +243,7 @@ def _unusual(key: str, written: Any) -> UnusualValue | None:
     return UnusualValue(
         key=key,
         value=value,
-        limit=q.usual[abs(value) > q.usual[1]],
+        limit=math.copysign(q.usual[abs(value) > q.usual[1]], value),
         unit=q.unit,
         written=_read_as(written, q.unit),
         question=question,

@@ -4,8 +4,7 @@ scene."""
 import time
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
 from textwrap import shorten
@@ -16,9 +15,8 @@ from ..estimate import PointWorkEstimate, estimated_work_of_point, expected_viol
 from ..models import prepare
 from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
-from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
-from .operating_points import POINT, SLIDING_COLUMN, U1
+from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
 
@@ -62,26 +60,8 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
 def warnings_of(plan: Any) -> list[str]:
     """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
     and unusual values of its scenes. Nothing is made or solved."""
-    violations = [_of_given_sliding(plan, violations_by_unusual_inputs(scene)) for scene in plan.scenes]
+    violations = [violations_by_unusual_inputs(scene) for scene in plan.scenes]
     return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(violations, "scenes")]
-
-
-def _of_given_sliding(plan: Any, violations: Sequence[Violation]) -> tuple[Violation, ...]:
-    """Return the ``violations`` of a scene of a `StudyPlan`; where its table gives the speeds of sliding or of the surfaces,
-    those of the slide-roll ratio, which follows from these, do not ask for its unit."""
-    if not {SLIDING_COLUMN, U1}.intersection(plan.coordinates):
-        return tuple(violations)
-    from_speeds = partial(
-        replace,
-        consequence="it follows from the speeds of the table",
-        recommendation="check the speeds of the surfaces",
-    )
-    return tuple(from_speeds(each) if _is_of_ratio(each) else each for each in violations)
-
-
-def _is_of_ratio(violation: Violation) -> bool:
-    """Return whether a ``violation`` is one of the slide-roll ratio."""
-    return violation.assumption == Assumption.ONE_DIRECTION or violation.what == SLIDE_ROLL_RATIO_KEY
 
 
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
@@ -136,7 +116,7 @@ def _left(plan: Any, table: StudyTable) -> Left:
             one = _curve_seconds(points, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
             models.update(point.model.name for point in points)
-            violations.append(_of_given_sliding(plan, _expected(prepared, speeds)))
+            violations.append(_expected(prepared, speeds))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)
@@ -166,7 +146,9 @@ def explain(plan: Any, store: Path | None = None) -> str:
     """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
     others will take, as text. Some of the maps are made. No point is solved."""
     about = "about " if plan.chooses_speeds else ""
-    lines = [f"study of {plan.scene.name}: {about}{counted(plan.points, 'points')}"]
+    different = plan.points if plan.chooses_speeds else sum(map(len, plan.requested.values()))
+    once = f", {different} of them different: identical ones are solved once" if different < plan.points else ""
+    lines = [f"study of {plan.scene.name}: {about}{counted(plan.points, 'points')}{once}"]
     for axis in plan.axes:
         shown = "; ".join(f"{key} {_range(key, column)}" for key, column in zip(axis.keys, zip(*axis.values)))
         if axis.name == POINT:

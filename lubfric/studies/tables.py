@@ -235,12 +235,14 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
 
 
 def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
-    """Return the direction of sliding (-1, 0, 1) of the operating points at the position ``index`` along the other axes."""
+    """Return the direction of sliding, of u2 - u1 (-1, 0, 1), of the operating points at the position ``index`` along the other
+    axes."""
+    senses = np.sign(result.plan.point_speeds)
     if SLIDE_ROLL_RATIO_KEY in result.coords:
         dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
         if dim == result.dims[-1]:
-            return np.sign(ratios)
-        return np.full(result.status.shape[-1], np.sign(ratios[index[result.dims.index(dim)]]))
+            return senses * np.sign(ratios)
+        return senses * np.sign(ratios[index[result.dims.index(dim)]])
     return np.zeros(result.status.shape[-1])
 
 

@@ -89,6 +89,15 @@ def test_a_sliding_that_looks_like_the_other_convention_is_questioned(motion, qu
     assert scene == scene.with_(motion={"slide_roll_ratio": ratio})  # the doubt is no part of the problem
 
 
+def test_the_ratio_of_given_speeds_is_in_no_other_unit():
+    """U = 0.1 m/s and 2 m/s of sliding: a ratio of 20, which 20 % were not meant to be; the limit has the sign of the value."""
+    paper = lubfric.load_scene("paper")
+    speeds = {"surface_speeds": [-0.9, 1.1], "entrainment_speed": None, "slide_roll_ratio": None}
+    assert unusual_values(paper.with_(motion=speeds)) == ()
+    (unusual,) = unusual_values(paper.with_(motion={"entrainment_speed": -3000}))
+    assert (unusual.value, unusual.limit) == (-3000, -100)
+
+
 def test_the_likely_cause_begins_a_message():
     """A load that its own unit makes heavy is refused for the Hertz area; the unit comes first."""
     with pytest.raises(lubfric.InputError) as caught:

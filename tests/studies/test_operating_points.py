@@ -310,7 +310,26 @@ def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
     table = {"speed [m/s]": [0.1, 0.1], "sliding_speed [m/s]": [0.48, 0.56]}
     text = lubfric.plan_study(scene, points=table).explain()
     assert "slide" in text and "percent" not in text.replace("slip_percent", "percent") and "Did you mean" not in text
-    assert "check the speeds of the surfaces" in text
+    assert "else check the speeds of the surfaces" in text
+
+
+def test_identical_points_are_counted_before_they_are_solved_once():
+    """The base circle of a cam: the same load and speeds at three of four times, one of them with another label."""
+    table = {"time [s]": [0, 1, 2, 3], "load [N]": [5, 5, 4, 5], "u1 [m/s]": [0.1] * 4, "u2 [m/s]": [0.3] * 4}
+    plan = lubfric.plan_study(SCENE, points=table)
+    assert plan.explain().splitlines()[0].endswith("4 points, 2 of them different: identical ones are solved once")
+    del table["load [N]"]
+    table["radius [mm]"] = [4, 5, 6, 7]
+    assert "different" not in lubfric.plan_study(SCENE, points=table).explain()
+
+
+@pytest.mark.parametrize("first, turns", [([0.1, -0.8], 0), ([0.1, -0.3], 0), ([0.9, 0.1], 1)])
+def test_a_reversal_of_the_entrainment_is_none_of_the_sliding(first, turns):
+    """u1 against u2 = 0.7 m/s: where u1 = -0.8 m/s, as at the nose of a cam, U is negative and the sliding is not."""
+    smooth = SCENE.with_(surface={"sq": 0.0, "correlation_length": 8e-6}, numerics={"model": "paper"})
+    table = {"position [mm]": [0, 1], "u1 [m/s]": first, "u2 [m/s]": [0.7, 0.7]}
+    axes = plot_points(lubfric.study(smooth, points=table), "coefficient")
+    assert np.isnan(axes.lines[0].get_ydata()).sum() == turns
 
 
 # Points of a table that slide in one direction and have no position, with a temperature in each row.

@@ -84,14 +84,10 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
-        advice = (
-            "check the speeds of the surfaces: 2 is simple sliding; a slip in percent goes into motion.slip_percent"
-        )
+        check = "the speeds of the surfaces: the ratio is 2 in simple sliding, and 0.02 at a slip of 2 %"
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
-            advice = (
-                "give numerics.heat = 'off' if the sliding is meant; else check motion.entrainment_speed and "
-                "motion.sliding_speed over the run"
-            )
+            check = "motion.entrainment_speed and motion.sliding_speed over the run"
+        advice = f"take f for an estimate if the surfaces move so, as at the nose of a cam; else check {check}"
         yield Violation(
             assumption=Assumption.ONE_DIRECTION,
             what=what,
