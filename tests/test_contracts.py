@@ -559,6 +559,16 @@ def test_fields_are_solved_again_or_not_as_requested():
         lubfric.friction(PAPER, 0.01, fields="coarse")
 
 
+def test_a_map_too_fine_for_its_picture_keeps_its_friction(monkeypatch):
+    """A patch on so many cells that no film is solved on them: f and its fields are those of the long cells, with a note."""
+    scene = LOOSE.with_(numerics={"sampling": "patch", "model": "quick"}, contact={"shape": (96, 96), "spacing": 0.5e-6})
+    plain = lubfric.friction(scene, 0.01, fields=True)
+    monkeypatch.setattr("lubfric.models.deterministic.problem.MOST_GRID_CELLS", plain.pressure.size)
+    fine = lubfric.friction(scene, 0.01, fields="fine")
+    assert fine.coefficient == plain.coefficient and np.array_equal(fine.pressure, plain.pressure)
+    assert any("finer ones were not solved" in note for note in fine.report.notes)
+
+
 def test_an_old_name_raises_with_the_new_one(prepared):
     with pytest.raises(AttributeError, match="called rough_contact now"):
         _ = prepared.contact

@@ -157,9 +157,10 @@ def _method_use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty
 def _fine_fields(
     solve: Callable[[], ContactFields], fields: ContactFields | None, report: Report
 ) -> tuple[ContactFields | None, Report]:
-    """Return the fields that ``solve`` gives, and the report; where it does not converge, ``fields`` and a note."""
+    """Return the fields that ``solve`` gives, and the report; where it does not converge, or has too many cells, ``fields`` and
+    a note."""
     try:
         return solve(), report
-    except ConvergenceError as error:
+    except (ConvergenceError, InputError) as error:
         note = f"the fields are on the cells that f was solved on, as finer ones were not solved: {error}"
         return fields, replace(report, notes=(*report.notes, note))

@@ -9,13 +9,16 @@ from dataclasses import dataclass, replace
 from .._base import limited_work, work_left
 from ..errors import ConvergenceError, InputError, WorkLimitError
 from ..models import AUTO, Model, SampleSolution, models_cheaper_than, models_up_to
-from ..models.shared import Prepared
+from ..models.shared import Assumption, Prepared
 from .solve_to_tolerance import solve_to_tolerance
 
 # Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
 # a point ends with. As much is left to the answer, and to the ends of input ranges, after a more expensive model was
 # tried in vain. A choice.
 LEAST_WORK_OF_CHEAPEST = 10.0
+
+# Severe violations with which f may mean something by another model: one that continues the patch is not cut off.
+OF_ONE_MODEL = {Assumption.CONTACT_ON_PATCH}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +112,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     Each model in turn is tried after the solution of the one before. That solution answers, and no further model is tried,
 
     - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
-    - if it has a severe violation, so that f means nothing by any model;
+    - if it has a severe violation, so that f means nothing by any model (those `OF_ONE_MODEL` excepted);
     - if the next model declines (`Model.why_declined`), or does not converge.
 
     A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of those
@@ -121,8 +124,9 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     for model in models[1:]:
         if choice.solution.may_suffice():
             choice = _completed(choice)
-        why = choice.solution.why_sufficient()
-        means_nothing = not why and any(violation.severe for violation in choice.solution.violations())
+        severe = {violation.assumption for violation in choice.solution.violations() if violation.severe}
+        why = "" if severe & OF_ONE_MODEL else choice.solution.why_sufficient()
+        means_nothing = not why and bool(severe - OF_ONE_MODEL)
         if not why and not means_nothing:
             why = model.why_declined(prepared, speed, choice.solution)
         if why or means_nothing:

@@ -160,6 +160,23 @@ def test_a_contact_on_the_edge_columns_of_a_patch_is_refused(grid, column):
     assert lubfric.friction(scene, 1e-3).validity == ()
 
 
+def test_a_contact_that_only_load_sharing_cuts_off_is_answered_by_default():
+    """A bump at the end of a patch carries the load. f is that on the patch between its own mirror images, whose contact no
+    end cuts off."""
+    numerics = {"sampling": "patch", "model": "auto"}
+    scene = lubfric.load_scene("paper").with_(contact={"shape": (48, 24), "spacing": 1.8e-6}, numerics=numerics)
+    rough = lubfric.prepare(scene).surface
+    heights = rough.heights + 1.5e-6 * np.exp(-((np.arange(48) / 4.5) ** 2))[:, None]
+    longer = np.concatenate([heights[::-1], heights, heights[::-1]])
+    maps = [lubfric.Surface(each, rough.spacing, periodic_axes=(False, True)) for each in (heights, longer)]
+    with pytest.raises(lubfric.ValidityError, match="edge columns"):
+        lubfric.friction(lubfric.prepare(scene.with_(numerics={"model": "paper"}), maps[0]), 1e-3)
+    short, long = (lubfric.friction(lubfric.prepare(scene, surface), 1e-3) for surface in maps)
+    assert [point.decision.model for point in (short, long)] == ["deterministic"] * 2
+    assert short.coefficient == pytest.approx(long.coefficient, rel=1e-3)
+    assert not any(violation.severe for violation in short.validity)
+
+
 @pytest.mark.parametrize(
     "numerics", [{"film_tolerance": 0.03, "heat": "off"}, {"model": "deterministic", "grid": "given"}]
 )

@@ -117,7 +117,7 @@ def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Viola
     length = surface.size[0]
     if surface.sq == 0 or surface.periodic_axes[0] or length >= needed:
         return
-    refuses = f"load sharing, with which the default model begins, refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
+    refuses = f"load sharing refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
     yield Violation(
         assumption=Assumption.LONG_PATCH,
         what="length of the patch along the motion",
@@ -125,7 +125,8 @@ def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Viola
         limit=1e6 * needed,
         unit="µm",
         consequence="the contact of the rough surfaces is longer, and the ends of the patch may cut it off; "
-        f"{refuses}; the quick and the deterministic model continue the patch by its mirror image",
+        f"{refuses}; the quick and the deterministic model, one of which answers by default then, continue the patch by its mirror "
+        "image",
         recommendation=way_to_longer_patch(scene, surface),
     )
 
