@@ -561,7 +561,9 @@ def test_fields_are_solved_again_or_not_as_requested():
 
 def test_a_map_too_fine_for_its_picture_keeps_its_friction(monkeypatch):
     """A patch on so many cells that no film is solved on them: f and its fields are those of the long cells, with a note."""
-    scene = LOOSE.with_(numerics={"sampling": "patch", "model": "quick"}, contact={"shape": (96, 96), "spacing": 0.5e-6})
+    scene = LOOSE.with_(
+        numerics={"sampling": "patch", "model": "quick"}, contact={"shape": (96, 96), "spacing": 0.5e-6}
+    )
     plain = lubfric.friction(scene, 0.01, fields=True)
     monkeypatch.setattr("lubfric.models.deterministic.problem.MOST_GRID_CELLS", plain.pressure.size)
     fine = lubfric.friction(scene, 0.01, fields="fine")

@@ -308,6 +308,21 @@ def test_info_states_the_limits_of_the_model_that_auto_is_expected_to_take(monke
     assert stated["auto"] == stated["quick"] and "The quick answer is not calibrated" in stated["auto"]
 
 
+@pytest.mark.parametrize(
+    "sections, why",
+    [
+        ({"contact": {"geometry": "flat"}}, "contact.geometry = 'flat'"),
+        ({"surface": {"sq": 0.0}}, "the surfaces are smooth"),
+    ],
+)
+def test_info_describes_what_answers_for_a_named_quick_model_without_an_answer(sections, why):
+    """The model that the result names, and no strips on long cells."""
+    scene = lubfric.load_scene("paper").with_(numerics={"model": "quick"}, **sections)
+    (line, *_) = describe_scene(scene).partition("  model\n")[2].splitlines()
+    assert "load-sharing model in place of the quick answer" in line and why in line and "long cells" not in line
+    assert lubfric.friction(scene.with_(contact={"shape": (96, 96)}), 1.0).decision.model == "paper"
+
+
 def test_info_counts_no_strips_of_a_model_that_has_no_answer():
     """Streamers are sheared in the load-sharing model alone, so it answers for every model."""
     streamers = lubfric.load_scene("paper").with_(motion={"speeds": [0.03]}, numerics={"cavitated_shear": "striated"})

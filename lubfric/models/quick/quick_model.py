@@ -14,7 +14,7 @@ from functools import cached_property
 
 from ...errors import ConvergenceError
 from ...samples import Sample
-from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
+from ...scene import Scene, has_moving_roughness, moving_bodies, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, SampleSolution
 from ..deterministic import work_of_fine_fields, work_on_long_cells
@@ -223,12 +223,13 @@ class QuickModel(Model):
     def described(self, scene: Scene) -> str:
         if why := _why_not_calibrated(scene):
             return f"quick answer (numerics.model), here by the {BY_LOAD_SHARING}; {why}"
-        unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
+        in_place = "load-sharing model in place of the quick answer (numerics.model)"
+        if why := why_gap_not_resolved(scene):
+            return f"{in_place}: {why}; its model-form error is not known and not in the interval"
+        if not moving_bodies(scene):
+            return f"{in_place}: the surfaces are smooth"
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
-        return (
-            f"quick answer (numerics.model): the deterministic model on {strips} with long cells, and a calibrated "
-            f"error{unknown}"
-        )
+        return f"quick answer (numerics.model): the deterministic model on {strips} with long cells, and a calibrated error"
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         return (
