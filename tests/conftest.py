@@ -52,6 +52,14 @@ def pytest_xdist_make_scheduler(config, log):
     return LoadFileScheduling(config, log)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def long_lines() -> Iterator[None]:
+    """Commands break no line: tests look for sentences. Those of the width set another one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COLUMNS", "10000")
+        yield
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The checkout: docs, examples and packages are found from here."""

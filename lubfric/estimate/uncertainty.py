@@ -195,17 +195,24 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def largest_part_in_words(self) -> str:
         """The `largest_part` without the words that introduce it."""
+        name, more = self.largest_part_and_advice
+        return f"{name} {self.budget_in_words[name]}{more}" if name else ""
+
+    @property
+    def largest_part_and_advice(self) -> tuple[str, str]:
+        """The name of the largest part of the budget, and its cause and what reduces it as text to be appended; both "" where
+        that is not known."""
         parts = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not parts or not math.isfinite(self.sampling):
-            return ""
+            return "", ""
         name = max(parts, key=lambda name: parts[name])
         if parts[name] < SMALL_PART:
-            return f"{name} {self.budget_in_words[name]}"
+            return name, ""
         cause = PARTS[name].cause(self)
         recommendation = PARTS[name].recommendation(self)
         because = f" ({cause})" if cause else ""
         advice = f"; {recommendation}" if recommendation else ""
-        return f"{name} {self.budget_in_words[name]}{because}{advice}"
+        return name, f"{because}{advice}"
 
     @property
     def has_few_contacts(self) -> bool:

@@ -11,6 +11,7 @@ import shlex
 import signal
 import sys
 import tempfile
+import textwrap
 import threading
 import time
 import tomllib
@@ -46,7 +47,7 @@ from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
-from .progress import clear_active
+from .progress import clear_active, state_part
 from .report import report_page
 from .run_files import OUTPUTS, RESOLVED_SCENE, RESULT
 
@@ -61,13 +62,42 @@ _CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
 
 # Choices, for lines that can be read.
 SAY_EVERY = 1.0  # s between two lines of progress
-PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
+PROGRESS_SECONDS = 60.0  # s between two lines on how far a point is, where no terminal shows it on one line
+CONSOLE_WIDTH = 100  # characters of a line of what no terminal shows, as a file or a pipe
+LEAST_CONSOLE_WIDTH = 40  # characters of a line on a narrower terminal
+HANGING_INDENT = 4  # blanks before the continuation of a line, more than before the line
+
+
+def wrapped(text: str, stream: Any) -> str:
+    """Return ``text`` with its lines broken between words to the width of ``stream``: $COLUMNS, or that of the terminal, or
+    `CONSOLE_WIDTH` where it is none. Continued lines are indented further."""
+    width = max(LEAST_CONSOLE_WIDTH, _width_of(stream))
+    lines = []
+    for line in text.split("\n"):
+        indent = " " * (len(line) - len(line.lstrip()) + HANGING_INDENT)
+        fitting = [line]
+        if len(line) > width:
+            fitting = textwrap.wrap(
+                line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+        lines += fitting
+    return "\n".join(lines)
+
+
+def _width_of(stream: Any) -> int:
+    """Return the number of characters of a line of ``stream``."""
+    words = os.environ.get("COLUMNS", "")
+    if words.isdecimal() and int(words) > 0:
+        return int(words)
+    with suppress(OSError, ValueError, AttributeError):  # no terminal, a closed file, no stream at all
+        return os.get_terminal_size(stream.fileno()).columns or CONSOLE_WIDTH
+    return CONSOLE_WIDTH
 
 
 def say(text: str) -> None:
-    """Write one line to stderr; silence once nobody reads it."""
+    """Write one line to stderr, `wrapped`; silence once nobody reads it."""
     clear_active()
-    put(sys.stderr, text + "\n")
+    put(sys.stderr, wrapped(text, sys.stderr) + "\n")
 
 
 def put(stream: Any, text: str) -> None:
@@ -84,10 +114,10 @@ def put(stream: Any, text: str) -> None:
 
 
 def answer(text: str) -> None:
-    """Write the answer of a command to stdout. Raise `OutputError` where it cannot be written, as on a full disk; a pipe
-    that nobody reads any more is no error."""
+    """Write the answer of a command to stdout, `wrapped`. Raise `OutputError` where it cannot be written, as on a full disk;
+    a pipe that nobody reads any more is no error."""
     try:
-        sys.stdout.write(printable(text, getattr(sys.stdout, "encoding", None)))
+        sys.stdout.write(printable(wrapped(text, sys.stdout), getattr(sys.stdout, "encoding", None)))
         sys.stdout.flush()
     except BrokenPipeError:
         put(sys.stdout, "")
@@ -120,7 +150,8 @@ def paced() -> Callable[..., bool]:
 
 
 def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
-    """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
+    """Return what reports how far a point is, and the time left for this part of it: on the line of progress of a terminal,
+    else in a line every ``interval`` [s] at most."""
     begun = time.monotonic()
     last = begun
 
@@ -129,12 +160,14 @@ def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, in
         now = time.monotonic()
         if done == 1:
             begun = now
-        if now - last < interval or done < 2:
+        if done < 2:
             return
-        last = now
         left = (now - begun) / (done - 1) * (total - done)
         time_left = f", {left:.0f} s left of this part" if left >= 1 else ""
-        say(f"      {what}: step {done} of {total}{time_left}")
+        words = f"{what}: step {done} of {total}{time_left}"
+        if not state_part(words) and now - last >= interval:
+            last = now
+            say(f"      {words}")
 
     return report
 

@@ -1,6 +1,7 @@
 """A scene as text: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
+import textwrap
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -52,6 +53,9 @@ SOME = 25
 
 # Speeds in the table, about. A choice.
 TABLE_SPEEDS = 6
+
+# Characters of a heading that is not broken.
+LEAST_HEADING = 7
 
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
 # Sections of ``lubfric info`` before and after that table: first what a user looks for.
@@ -134,11 +138,23 @@ def described_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> tuple[s
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
         for names in (BEFORE_TABLE, AFTER_TABLE)
     )
-    widths = [max(map(len, column)) for column in zip(*estimate.table)]
-    table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
+    table = _table_in_text(estimate.table)
     first = [violation.text for violation in violations_by_unusual_inputs(scene)]
-    lines = [*first, f"scene {scene.name}", *before, f"  {TABLE_CAPTION}", *map(str.rstrip, table), *after]
+    lines = [*first, f"scene {scene.name}", *before, f"  {TABLE_CAPTION}", *table, *after]
     return "\n".join(lines), estimate
+
+
+def _table_in_text(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """Return the lines of a table of ``rows``, whose first one is the headings: these are broken between words, such that no
+    column is wider than its cells and the words of its heading."""
+    columns = []
+    for heading, *cells in zip(*rows):
+        width = max(LEAST_HEADING, *map(len, (*heading.split(), *cells)))
+        columns.append([*textwrap.wrap(heading, width), *cells])
+    highest = max(len(column) for column in columns)
+    padded = [[""] * (highest - len(column)) + column for column in columns]
+    widths = [max(map(len, column)) for column in padded]
+    return ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(line, widths)).rstrip() for line in zip(*padded)]
 
 
 def estimate_scene(

@@ -8,6 +8,7 @@ import threading
 import time
 from contextlib import suppress
 from importlib import import_module
+from shutil import get_terminal_size
 from typing import Any
 
 from .._base.processes import begin_beside
@@ -29,6 +30,7 @@ class ProgressLine:
         self.unit = unit
         self.done = 0.0
         self.total = 0.0
+        self.part = ""  # how far the point is that is being solved, as text
         self._first: float | None = None
         self._begun = time.monotonic()
         self._bar: Any = None
@@ -61,27 +63,30 @@ class ProgressLine:
             self._first = max(done - 1.0, 0.0) if self._first is None and total > 1 else self._first or 0.0
             self.done = done
             self.total = total
+            self.part = ""
 
     @property
     def text(self) -> str:
-        """The line: what is done, the time passed, and the time left where it is known."""
+        """The line: what is done, the time passed, the time left and the part of the point, where they are known."""
         passed = time.monotonic() - self._begun
         head = f"{self.done:.4g} of {self.total:.4g} {self.unit}, " if self.total else ""
         text = f"{head}{in_words(passed)} passed"
         solved = self.done - (self._first or 0.0)
         if self.total and solved > 0:
             text += f", about {in_words(passed * (self.total - self.done) / solved)} left"
-        return text
+        return f"{text}; {self.part}" if self.part else text
 
     def draw(self) -> None:
         """Draw the line as it is now."""
         with self._lock, suppress(OSError, ValueError):
             if self._bar is None:
-                sys.stderr.write(f"{CLEAR_LINE}{self.text}")
+                width = get_terminal_size().columns - 1  # a longer line would be more than one, which nothing clears
+                sys.stderr.write(f"{CLEAR_LINE}{self.text[:width]}")
                 sys.stderr.flush()
                 return
             self._bar.total = self.total or None
             self._bar.n = self.done
+            self._bar.set_postfix_str(self.part, refresh=False)
             self._bar.refresh()
 
     def clear(self) -> None:
@@ -95,6 +100,13 @@ class ProgressLine:
     def _draw_often(self) -> None:
         while not self._ended.wait(REFRESH):
             self.draw()
+
+
+def state_part(text: str) -> bool:
+    """Put ``text``, how far a point is, on the line of the command that is running; return whether there is one."""
+    if _active is not None:
+        _active.part = text
+    return _active is not None
 
 
 def clear_active() -> None:

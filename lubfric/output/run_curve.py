@@ -21,7 +21,7 @@ from .._base.progress import progress_to
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..estimate import FrictionResult
 from ..models import models_up_to
-from ..models.shared import Prepared, Violation, at_value, effect_in_words
+from ..models.shared import Prepared, Violation, at_value, at_values, effect_in_words
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import (
@@ -180,7 +180,7 @@ def _write(
         if isinstance(law, studies.Law):
             contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
     with folder.reporting("the uncertainty of f was not reported"):
-        unusual_values = _doubts(prepared.scene, curve)
+        unusual_values = [*_largest_parts(curve), *_doubts(prepared.scene, curve)]
     given: dict[str, Any] = {}
     with folder.reporting("report.html is without the inputs as they were given"):
         given = given_tables(arguments.scene)
@@ -447,6 +447,20 @@ def _plot(
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
 
 
+def _largest_parts(curve: studies.CurveResult) -> list[str]:
+    """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the same."""
+    name, _, unit, plural = curve.SWEPT
+    places: dict[str, list[float]] = {}
+    for value, point in zip(getattr(curve, name).tolist(), curve.points):
+        words = "" if point is None else "".join(point.uncertainty.largest_part_and_advice)
+        places.setdefault(words, []).append(value)
+    return [
+        f"largest part of the interval of f {at_values(values, unit, plural)}: {words}"
+        for words, values in places.items()
+        if words
+    ]
+
+
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     """Return the errors of f as text: at how many points, and in full for the least sure of them; at how many points
     too few asperity contacts carry the load; and that results were accepted."""
@@ -618,12 +632,11 @@ def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_rati
         loads = in_words(outcome, ("contact_load", "film_load"))
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
-        largest = f"; {known.largest_part}" if known.largest_part else ""
         omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
         time_ = f"(wall-clock time {outcome.seconds:.2f} s)"
         ratio = value if has_ratios else scene.motion.slide_roll_ratio
         rolling = rolling_in_words(outcome, ratio * outcome.speed).replace(", of", " of", 1)
         loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}{rolling}"
-        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}{largest}")
+        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}")
 
     return on_point

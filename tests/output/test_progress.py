@@ -10,7 +10,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 from lubfric.output import ProgressLine, main, run_history
 from lubfric.output import progress as module
-from lubfric.output.commands import say
+from lubfric.output.commands import moment_reports, say
 from lubfric.output.progress import CLEAR_LINE
 from lubfric.output.run_history import _time_left
 
@@ -50,6 +50,20 @@ def test_a_terminal_sees_a_line_that_other_lines_replace(monkeypatch, quick):
     text = stream.getvalue()
     assert f"{CLEAR_LINE}1 of 4 points" in text and " left" in text
     assert f"{CLEAR_LINE}a finished line\n" in text and text.endswith(CLEAR_LINE)
+
+
+def test_how_far_a_point_is_stands_on_the_line_of_a_terminal_alone(monkeypatch, quick):
+    """A line each five seconds for each strip of a point is a page for every point of a study."""
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with ProgressLine("points") as shown:
+        shown.update(1, 4)
+        report = moment_reports(0.0)
+        report("moving roughness", 2, 10)
+        assert shown.text.endswith("; moving roughness: step 2 of 10")
+        shown.update(2, 4)
+        assert "moving" not in shown.text
+    assert "\n" not in stream.getvalue()
 
 
 def test_a_file_gets_no_progress(monkeypatch, quick, tmp_path):

@@ -111,6 +111,7 @@ from .violation import (
     Assumption,
     Violation,
     at_value,
+    at_values,
     gathered,
     gathered_texts,
     in_a_cell,

@@ -204,10 +204,9 @@ def gathered(
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
-            ends = f"{values[0]:.4g} to {values[-1]:.4g} {unit}".rstrip()
             differ = len({(violation.consequence, violation.recommendation) for _, violation in group}) > 1
             place = at_value(at_worst, unit, name) if differ else ""
-            lines.append(f"at {len(group)} {name}, {ends}: {worst.text_of(_from_to(group, unit), place)}")
+            lines.append(f"{at_values(values, unit, name)}: {worst.text_of(_from_to(group, unit), place)}")
     return tuple(lines)
 
 
@@ -273,6 +272,13 @@ def at_value(value: float, unit: str, name: str) -> str:
     """Return the place of one value of a curve: "at 3 m/s", or without a ``unit`` "at a slide-roll ratio of 0.05".
     ``name``: of several values."""
     return f"at {value:.6g} {unit}" if unit else f"at a {name.removesuffix('s')} of {value:.6g}"
+
+
+def at_values(values: Sequence[float], unit: str, name: str) -> str:
+    """Return the place of several ``values`` of a curve: "at 3 speeds, 0.1 to 1 m/s"; of one as `at_value`."""
+    if len(values) == 1:
+        return at_value(values[0], unit, name)
+    return f"at {len(values)} {name}, {f'{min(values):.4g} to {max(values):.4g} {unit}'.rstrip()}"
 
 
 def _distance(violation: Violation) -> float:
