@@ -5,6 +5,7 @@ import math
 from collections.abc import Iterable, Sequence
 from html import escape
 from importlib.resources import files
+from itertools import cycle
 from string import Template
 from typing import Any
 
@@ -725,15 +726,23 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
         rows.append(cells)
     for name, value in shown.items():
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
-        used = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
-        if isinstance(value, dict):
-            used = ""
+        used = _used_in_words(f"{section}.{name}", value)
         rows.append(
             f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
         )
     facts = _list([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
     heads = ["quantity", "value used", "given as"]
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
+
+
+def _used_in_words(key: str, value: Any) -> str:
+    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; "" of a table."""
+    if isinstance(value, dict):
+        return ""
+    values = value if isinstance(value, list) else [value]
+    units = (KEYS[key].unit if key in KEYS else "-").split(", ")
+    numbers_with_units = zip(values, cycle(units))
+    return ", ".join(worded(number, unit) for number, unit in numbers_with_units)
 
 
 def _is_short_form(section: str, given: dict[str, Any]) -> bool:

@@ -13,6 +13,7 @@ from small_study import SCENE as SMALL_SCENE
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, main
+from lubfric.output.report import _inputs as input_tables
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 
 HEAVY = lubfric.load_scene("paper").with_(
@@ -39,6 +40,19 @@ def test_every_input_stands_with_its_unit():
     stated += "|surface speeds 0.975 and 1.025 m/s"
     for words in stated.split("|"):
         assert words in text, words
+
+
+def test_an_input_that_is_given_in_si_has_its_unit_in_the_report():
+    """Density, temperature and radii were bare numbers: they are short forms, which no resolved scene holds."""
+    given = {
+        "bodies": {"radii": [8e-3, 0.02]},
+        "lubricant": {"grade": "ISO VG 68", "viscosity_index": 95, "density": 870, "temperature_celsius": 70},
+        "motion": {"speed_range": [1e-3, 10.0, 13]},
+    }
+    scene = lubfric.load_scene("paper").with_(**given)
+    page = "".join(input_tables(scene, section, values) for section, values in given.items())
+    used = set(re.findall(r'"value used">([^<]*)</td>', page))
+    assert {"870 kg/m³", "70 °C", "8 mm, 20 mm", "95", "0.001 m/s, 10 m/s, 13"} <= used
 
 
 @pytest.mark.parametrize("width", [100, 60])
