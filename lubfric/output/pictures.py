@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
+TEMPERATURE_HEIGHT = 2.6  # inch, at the usual width: of the temperatures of a traction curve
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
@@ -82,20 +83,21 @@ def plot_stribeck(
 
 
 def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Draw the full-load film thickness and the central separation over ``speed``, and the roughness to compare."""
+    """Draw the full-load film thickness and the central separation over ``speed``, or a slide-roll ratio, and the roughness to
+    compare."""
     separation = c["central_film"]
     film = c.get("full_load_film", np.full(speed.shape, np.nan))
     unit = unit_for(separation.tolist(), "m")
     scale = 1.0 / converted(1.0, unit, "m")
     if np.isfinite(film).any():
-        axes.loglog(speed, film * scale, "o-", color=figures.GREEN, ms=4, label="full-load film thickness")
-    axes.loglog(speed, separation * scale, "s--", color=figures.BLUE, ms=3, lw=1, label="central separation")
+        axes.plot(speed, film * scale, "o-", color=figures.GREEN, ms=4, label="full-load film thickness")
+    axes.plot(speed, separation * scale, "s--", color=figures.BLUE, ms=3, lw=1, label="central separation")
     sq = separation / c["film_to_roughness_ratio"]
     if np.isfinite(sq).all() and (sq > 0).all():  # not of smooth surfaces
         for times, dashes, name in ((1, "--", f"Λ = 1 (Sq = {worded(float(sq[0]), 'm')})"), (3, ":", "Λ = 3")):
             axes.axhline(times * sq[0] * scale, color=figures.GREY, lw=0.8, ls=dashes, label=name)
     figures.key_above(axes, 2)
-    axes.set(ylabel=f"film thickness ({printed(unit)})")
+    axes.set(yscale="log", ylabel=f"film thickness ({printed(unit)})")
     figures.plain_ticks(axes.yaxis)
 
 
@@ -108,16 +110,17 @@ def plot_traction(
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Draw f over the slide-roll ratio, and below, where they were computed, temperatures. Arguments as of
-    `plot_stribeck`."""
+    """Draw f, the load ratios and the film over the slide-roll ratio, and below, where they were computed, temperatures.
+    Arguments as of `plot_stribeck`."""
     good = np.flatnonzero(np.isfinite(columns["coefficient"]))
     order = good[np.argsort(columns["ratio"][good])]
     c = type(columns)((name, column[order]) for name, column in columns.items())
     ratio = c["ratio"]
     load = c["contact_load"] + c["film_load"]
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
-    figure = figures.new_figure(figsize=options.size([6.5 if warm else 4.5]))
-    top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
+    heights = [*PANEL_HEIGHTS.values(), TEMPERATURE_HEIGHT][: 3 + warm]
+    figure = figures.new_figure(figsize=options.size(heights))
+    top, loads, film, *others = figure.subplots(len(heights), 1, sharex=True, height_ratios=heights)
     gaps = _draw_gaps(top, c)
     numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
     broken = type(columns)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
@@ -129,13 +132,16 @@ def plot_traction(
     _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title if options.has_title else "")
     top.set_ylabel(figures.FRICTION_LABEL)
+    figures.load_shares(loads, ratio, c["contact_load"] / load)
+    figures.key_above(loads)
+    _films(film, ratio, c)
     line = "-" if ratio.size > 1 else "o"
     for bottom in others:
         bottom.plot(ratio, c["flash_temperature_rise"], line, color=figures.RED, label="surfaces (flash temperature)")
         bottom.plot(ratio, c["film_temperature_rise"], line, color=figures.GREEN, label="film, above the surfaces")
         bottom.set(ylabel="largest temperature rise (K)")
         figures.key_above(bottom)
-    last = others[-1] if others else top
+    last = others[-1] if others else film
     last.set_xlabel("slide-roll ratio (-)")
     figures.log_if_wide(last, "x", ratio)
     options.scale(last, friction=top, f=c["coefficient"])

@@ -186,8 +186,15 @@ def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(
 def test_a_traction_curve_is_drawn_by_its_table(figures):
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [()] * 4)
-    top, bottom = figures[0].axes
+    top, loads, film, bottom = figures[0].axes
     np.testing.assert_allclose(data(top, "friction coefficient"), [[0.01, 0.1, 1.0], [0.09, 0.05, 0.02]])
+    solved = np.argsort(COLUMNS["speed"])
+    solved = solved[np.isfinite(COLUMNS["coefficient"][solved])]
+    unit = {"nm": 1e9, "µm": 1e6}[film.get_ylabel().partition("(")[2].rstrip(")")]
+    (ratio, separation) = data(film, "central separation")
+    np.testing.assert_allclose(ratio, [0.01, 0.1, 1.0])
+    np.testing.assert_allclose(separation, unit * COLUMNS["central_film"][solved])
+    assert loads.get_ylabel() == "load ratio (-)"
     np.testing.assert_allclose(data(bottom, "surfaces (flash temperature)"), [[0.01, 0.1, 1.0], [3.0, 7.0, 21.0]])
     np.testing.assert_allclose(data(bottom, "film, above the surfaces"), [[0.01, 0.1, 1.0], [0.5, 1.0, 30.0]])
     assert "(K)" in bottom.get_ylabel() and "slide-roll ratio (-)" == bottom.get_xlabel()
@@ -197,7 +204,7 @@ def test_one_ratio_shows_its_temperatures(figures):
     plot_traction(
         "x.png", {name: column[:1] for name, column in (COLUMNS | {"ratio": COLUMNS["speed"]}).items()}, "t", [()]
     )
-    assert all(line.get_marker() == "o" for line in figures[0].axes[1].lines)
+    assert all(line.get_marker() == "o" for line in figures[0].axes[-1].lines)
 
 
 def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
@@ -506,7 +513,7 @@ def test_points_with_warnings_are_ringed_also_where_all_are(figures):
     assert figures[0].get_supxlabel() == "not fulfilled: starved"
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
     plot_traction("x.png", columns | cold, "title", [()] * 4)
-    assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
+    assert len(figures[1].axes) == 3  # no panel of temperatures where none rises
 
 
 def test_a_spike_does_not_take_the_colours_of_a_map_and_is_reported():
