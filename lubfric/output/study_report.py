@@ -67,6 +67,11 @@ CELL_DIGITS = 4
 DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
 # Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
+RISE_NOTE = (
+    "The temperature rises have no stated error. By the deterministic and the quick model they are those of one strip at one "
+    "moment, and the rise of the film varies up to threefold from one strip or moment to another: the steps from point to point "
+    "show this scatter, too. f contains the heat, and its interval the error by it."
+)
 
 # What f is at a point where nothing slides, and why the power loss there is not f times a speed.
 IN_PURE_ROLLING = (
@@ -272,7 +277,8 @@ def _details(result: StudyResult, rows: int) -> str:
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
     heads += parts
     about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
-    return f"<details><summary>{about}</summary>{table(heads, body)}</details>"
+    note = f"<p>{RISE_NOTE}</p>" if np.isfinite(rises[1]).any() else ""
+    return f"<details><summary>{about}</summary>{note}{table(heads, body)}</details>"
 
 
 def _parts_of_error(

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -103,6 +104,9 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     assert "total load 88 %, f falls with it; viscosity at ambient pressure 12 %, f rises with it." in line
     page = study_report.study_page(result, {}, []).decode()
     assert "Pressure, temperature, and parts of the error" in page and "Effects not modelled" in page
+    unknown = result.columns | {"film_temperature_rise": np.full(result.status.shape, np.nan)}
+    cold = study_report.study_page(replace(result, columns=unknown), {}, []).decode()
+    assert "up to threefold" in page and "up to threefold" not in cold  # how well the rises are known, beside them
     hertz = re.findall(r'data-label="peak Hertz pressure[^>]*>([0-9.]+) MPa|>([0-9.]+) MPa<', page)
     assert len(hertz) == 12
 
