@@ -287,6 +287,8 @@ def plot_again(arguments: Namespace) -> None:
     if name is None and (folder / RESOLVED_STUDY).is_file():
         _plot_study_again(arguments)
         return
+    if not folder.is_dir():
+        raise InputError(f"there is no folder {validate.shown(str(folder))}; give one that 'lubfric run' wrote")
     if name is None:
         raise InputError(
             f"{folder} has no stribeck.csv; give a folder that 'lubfric run', 'lubfric study' or 'lubfric fit' wrote"
@@ -448,16 +450,17 @@ def _plot(
 
 
 def _largest_parts(curve: studies.CurveResult) -> list[str]:
-    """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the same."""
+    """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the same;
+    none for points where no input or tolerance reduces it."""
     name, _, unit, plural = curve.SWEPT
     places: dict[str, list[float]] = {}
     for value, point in zip(getattr(curve, name).tolist(), curve.points):
-        words = "" if point is None else "".join(point.uncertainty.largest_part_and_advice)
-        places.setdefault(words, []).append(value)
+        part, advice = ("", "") if point is None else point.uncertainty.largest_part_and_advice
+        if advice:
+            places.setdefault(f"{part}{advice}", []).append(value)
     return [
         f"largest part of the interval of f {at_values(values, unit, plural)}: {words}"
         for words, values in places.items()
-        if words
     ]
 
 

@@ -132,6 +132,8 @@ def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_
     (tmp_path / "a" / "stribeck.csv").write_text("\n".join([*rows, rows[-1]]) + "\n")
     assert main(["plot", str(tmp_path / "a")]) == 2
     assert "run 'lubfric run' again" in capsys.readouterr().err
+    assert main(["plot", str(tmp_path / "none")]) == 2
+    assert "there is no folder" in capsys.readouterr().err
 
 
 def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys):
@@ -145,6 +147,14 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     assert main(["info", "paper", "--speeds", "0.001,0.3"]) == 0
     cost = capsys.readouterr().out.partition("cost: ")[2].splitlines()[0]
     assert f"estimate: {cost.partition('; ')[0]}\n" in said
+
+
+@pytest.mark.slow
+def test_the_scene_of_init_meets_its_tolerance_where_its_numerical_error_is_largest(tmp_path):
+    """With a tolerance of 1 % it missed that at five of its thirteen speeds."""
+    assert main(["init", str(tmp_path / "s.toml")]) == 0
+    point = lubfric.friction(lubfric.load_scene(tmp_path / "s.toml"), 0.4642)
+    assert 0 < point.uncertainty.numerical <= lubfric.load_scene(tmp_path / "s.toml").numerics.tolerance
 
 
 def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypatch):
