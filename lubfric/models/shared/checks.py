@@ -370,14 +370,15 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             or heat.inlet.thermal_number > MOST_THERMAL_LOADING
         )
         if extrapolated and spread > tolerance:
+            (least, most) = sorted((heat.inlet.factor, heat.inlet.other))
             yield Violation(
                 assumption=Assumption.KNOWN_INLET_HEAT,
                 what="difference of two published inlet heating factors",
                 value=spread,
                 limit=tolerance,
                 unit="",
-                consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} times as thick as the "
-                "isothermal one; neither factor was derived for such sliding",
+                consequence=f"the film is between {least:.2g} and {most:.2g} times as thick as the isothermal one; "
+                "neither factor was derived for such sliding",
                 recommendation="measure the film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.is_slow and heat.change > tolerance:
