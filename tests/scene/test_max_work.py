@@ -10,6 +10,7 @@ import lubfric
 from lubfric._base import limited_work
 from lubfric.errors import ConvergenceError, WorkLimitError
 from lubfric.models.load_sharing import PaperModel
+from lubfric.models.quick import quick_model
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1, "tolerance": 0.05})
 CHEAP = PAPER.with_(numerics={"model": "paper", "tolerance": 0.2, "sampling_tolerance": 0.5})
@@ -192,3 +193,21 @@ def test_the_contact_of_a_prepared_scene_is_counted_before_and_after_a_pickle():
 def solved(prepared):
     sample = prepared.sample
     return PaperModel().solve(prepared, sample, sample.first_strips, SPEED).answer()
+
+
+def test_a_thick_film_over_asperities_in_contact_takes_no_balance(monkeypatch):
+    """Λ 3.4 at 0.4 GPa: load sharing cannot answer, because asperities touch, so that all it takes is the full-load film."""
+
+    def strips(*_):
+        raise StopIteration
+
+    monkeypatch.setattr(quick_model, "solve_on_long_cells", strips)
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"hertz_pressure": 4e8},
+        motion={"slide_roll_ratio": 0.1, "entrainment_speed": 0.16},
+        surface={"correlation_length": 15e-6},
+        numerics={"model": "quick"},
+    )
+    with limited_work(math.inf) as meter, pytest.raises(StopIteration):
+        lubfric.friction(scene)
+    assert 0 < meter.spent < 0.02  # of a balance on these strips: 0.3

@@ -9,7 +9,7 @@
 - `differences_of_strips` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
-from .balance import Balance, solve_balance
+from .balance import Balance, is_separated, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error, why_moment_unknown

@@ -151,6 +151,15 @@ def solve_balance(
     return replace(_in_contact(Point(scene, speed, rough_contact, settings), sq, start, alone, known), notes=notes)
 
 
+def is_separated(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
+    """Return whether the film of the total load at ``speed`` [m/s], not 0, separates the surfaces of ``rough_contact``, as
+    `solve_balance` finds before any contact. Raises `ConvergenceError`."""
+    if _touches_certainly(scene, speed, rough_contact):
+        return False
+    film_alone = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, is_film_alone=True)))
+    return volume_residual(film_alone.contact_state) <= 0
+
+
 def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
     """Return the balance of a contact that carries the total load; ``why`` no film does, as text."""
     load = scene.bodies.load

@@ -18,7 +18,13 @@ from ...scene import Scene, has_moving_roughness, moving_bodies, why_gap_not_res
 from ...surface import Surface
 from ..contract import Model, SampleSolution
 from ..deterministic import work_of_fine_fields, work_on_long_cells
-from ..load_sharing import PaperModel, PaperSolution, expected_model_error, methods_of_load_sharing
+from ..load_sharing import (
+    PaperModel,
+    PaperSolution,
+    expected_model_error,
+    is_separated,
+    methods_of_load_sharing,
+)
 from ..model_answer import ModelAnswer
 from ..shared import (
     Assumption,
@@ -27,6 +33,7 @@ from ..shared import (
     Heat,
     Prepared,
     Violation,
+    contact_on_joined_strips,
     expected_on_hertz,
     percent_beside,
     rolling_model_error,
@@ -114,7 +121,9 @@ class QuickSolution(SampleSolution):
         if self.on_long_cells is not None or self.why_by_equation:
             return self
         of_thick_films = _error_of_thick_films(self.prepared.scene, self.prepared.surface.sq, self.speed)
-        solution = self._with_paper_solution() if of_thick_films > 0 else self
+        solution = self
+        if of_thick_films > 0 and self.paper_solution is None and self._is_separated_at_first():
+            solution = self._with_paper_solution()
         completed = solution._with_strips_or_why(of_thick_films)
         if isinstance(completed, QuickSolution):
             return completed
@@ -123,10 +132,9 @@ class QuickSolution(SampleSolution):
     def _with_strips_or_why(self, of_thick_films: float) -> QuickSolution | str:
         """Return this solution with its strips on long cells; where they cannot answer, why load sharing does, as text.
 
-        ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is not, and
-        load sharing need not be solved.
+        ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is not.
         """
-        is_thick = of_thick_films > 0
+        is_thick = of_thick_films > 0 and self.paper_solution is not None
         if why := _why_not_calibrated(self.prepared.scene):
             return why
         if is_thick and self._is_separated_within(of_thick_films):
@@ -149,6 +157,15 @@ class QuickSolution(SampleSolution):
         while (count := solution.required_strips()) > solution.count:
             solution = model.solve(self.prepared, self.sample, count, self.speed, start=solution)
         return replace(self, paper_solution=solution.corrected())
+
+    def _is_separated_at_first(self) -> bool:
+        """Return whether the full-load film separates the surfaces of these strips, so that load sharing may answer. Where
+        asperities touch on them, they do on more strips."""
+        rough_contact = contact_on_joined_strips(self.prepared, self.sample, self.count)
+        try:
+            return is_separated(self.prepared.scene, self.speed, rough_contact)
+        except ConvergenceError:
+            return False  # without a film of load sharing the strips on long cells answer
 
     def _is_separated_within(self, most: float) -> bool:
         """Return whether no asperity carries load by load sharing, with a relative model-form error of at most ``most``."""
