@@ -40,11 +40,6 @@ FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 # the points. Measured there.
 LAST_STEPS = 10
 
-# Newton steps on a strip of long cells where the pressure is high, with those on cells twice as long from which it
-# starts, and with the iterations of GMRES [-]: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
-# Measured there.
-HEAVY_LONG_CELL_STEPS = 32
-
 # Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH_WORK = 3.5
@@ -80,6 +75,10 @@ LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
+
+# Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the same, most of
+# all where the arrays are small.
+AT_REST_ON_LONG_CELLS = 0.9
 
 # Processor time of moving roughness over its counted work [-]: .44 to .56 in five jobs of
 # verification.campaigns.benchmarks.rolling_costs.
@@ -352,7 +351,7 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
 
 
 def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:
-    """Return the counted work [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
+    """Return the processor time [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
     solved from the dry contact; ``sq`` [m]: of the surface."""
     if sample.refines_in_place:
         return 0.0
@@ -360,7 +359,8 @@ def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
     length = pictured_length(scene, sample) * sample.correlation_lengths[1]
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * length / (fy * dy)
-    return work_of_steps(cells, STRIP_STEPS)
+    steps = expected_steps(scene, sq, speed)
+    return AT_REST * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
 
 
 def pictured_length(scene: Scene, sample: Sample) -> float:
@@ -369,7 +369,13 @@ def pictured_length(scene: Scene, sample: Sample) -> float:
 
 
 def work_on_long_cells(
-    scene: Scene, sample: Sample, surface: Surface, speed: float, *, sample_coarsening: tuple[float, float], count: int
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speed: float,
+    *,
+    sample_coarsening: tuple[float, float],
+    count: float,
 ) -> float:
     """Return the processor time [s] at ``speed`` [m/s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of
     ``sample``, to which the ``surface`` belongs, and of the ends of input ranges."""
@@ -384,12 +390,9 @@ def work_on_long_cells(
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     steps = expected_steps(scene, sq, speed)
-    number = _with_middle(ends)
-    if are_soft(scene.line_contact(abs(speed)), sq):
-        return AT_REST * (count * steps.work(cells, steps.first) + number * steps.work(cells, steps.again))
-    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    first = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS
-    return count * work_of_steps(cells, first) + number * work_of_steps(cells, AGAIN)
+    strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
+    again = (OF_SLOPE + _with_middle(ends)) * steps.work(cells, steps.again)
+    return AT_REST_ON_LONG_CELLS * (strips + again)
 
 
 def moving_point_work(

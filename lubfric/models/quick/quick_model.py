@@ -51,9 +51,12 @@ from .strips_on_long_cells import (
     solve_on_long_cells,
 )
 
-# Strips at rest, about, on which an estimate of the work rests: at most there are `MOST_STRIPS`. A choice: the middle
-# of 1 to `MOST_STRIPS`.
-EXPECTED_STRIPS = 2
+# Strips at rest, about, of points whose first one has a small sampling error: one or two of 11 random points.
+USUAL_STRIPS = 1.5
+
+# Expected standard error of f by one strip, over that which the first strips by load sharing leave times the root of their number,
+# for which strips are solved [-]: about a fifth of the bounds by the cells.
+EXPECTED_TARGET = 0.05
 
 BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
@@ -213,6 +216,13 @@ def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float
     return along / fx, across / fy
 
 
+def _expected_strips(sample: Sample, alone: WorkEstimate) -> float:
+    """Return the expected number of strips at rest on long cells, by the sampling error of the joined strips of ``sample`` by load
+    sharing ``alone``."""
+    of_one = alone.expected_sampling_error * math.sqrt(sample.first_strips)
+    return float(min(max((of_one / EXPECTED_TARGET) ** 2, USUAL_STRIPS), MOST_STRIPS))
+
+
 def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
     """Return the error of f, relative, that the bounds of long cells have at least where the film over ``sq`` [m] at ``speed``
     [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
@@ -283,7 +293,7 @@ class QuickModel(Model):
         has_rough_film = speed != 0 and surface.sq != 0 and sample.is_resolved
         solves_strips = has_rough_film and not _why_not_calibrated(scene) and scene.transient is None
         if solves_strips:
-            count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
+            count = 1.0 if has_moving_roughness(scene) else _expected_strips(sample, alone)
             seconds += work_on_long_cells(
                 scene,
                 sample,
