@@ -63,6 +63,10 @@ PIECES_OF_RUBBED = 0.25
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice.
 RUBBED_FILM = 0.25
 
+# The same of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it (.05, .07), and one
+# above it (.13).
+RUBBED_FILM_OF_SHORT_STRIP = 0.1
+
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
 # Measured there.
 OF_SLOPE = 0.5
@@ -303,6 +307,9 @@ def _work_of_short_strip(
     is_coarse = fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if is_coarse else 0.0
     finer = work_of_steps(cells * fx * fy, _finer_steps(scene, sq, speed))
+    if is_smooth and scene.line_contact(abs(speed)).moes_film < RUBBED_FILM_OF_SHORT_STRIP * sq:
+        finer *= PIECES_OF_RUBBED
+        shorter *= PIECES_OF_RUBBED
     is_usual = scene.lubricant.inlet_film is None and not are_soft(scene.line_contact(abs(speed)), sq)
     times = 1.0 if is_usual else steps.first / STRIP_STEPS  # `FINER_STEPS_HEAVY` has what thin films take
     seconds = times * (count * work_of_steps(cells, STRIP_STEPS) + finer + again) + shorter
