@@ -73,7 +73,7 @@ def test_a_map_where_a_gap_is_expected_is_distinguished():
         (["info", "nothing.toml"], "nothing.toml"),
         (["run", "paper", "--speeds", "a,b"], "speeds"),
         (["run", "paper", "--speeds", "0,01", "--out", "nowhere"], "a point in decimals"),
-        (["plot", "nowhere"], "stribeck.csv"),
+        (["plot", "nowhere"], "there is no folder"),
         (["run", "flat", "--sampling-tolerance", "0.01"], "flat is solved on one patch"),
         (["plot", "nowhere", "--speed", "U [m/s]"], "give --measured as well"),
     ],
