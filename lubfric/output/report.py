@@ -735,6 +735,10 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
 
 
+# A radius that is infinite: the one input that may be.
+PLANE = "a plane"
+
+
 def _used_in_words(key: str, value: Any) -> str:
     """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; "" of a table."""
     if isinstance(value, dict):
@@ -742,7 +746,7 @@ def _used_in_words(key: str, value: Any) -> str:
     values = value if isinstance(value, list) else [value]
     units = (KEYS[key].unit if key in KEYS else "-").split(", ")
     numbers_with_units = zip(values, cycle(units))
-    return ", ".join(worded(number, unit) for number, unit in numbers_with_units)
+    return ", ".join(PLANE if number == math.inf else worded(number, unit) for number, unit in numbers_with_units)
 
 
 def _is_short_form(section: str, given: dict[str, Any]) -> bool:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
 from ..samples import is_measured, whole_maps
-from ..scene import Scene, load_scene, read_toml, speeds_of_range
+from ..scene import Scene, builtin_scenes, load_scene, read_toml, speeds_of_range
 from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
 from .explain import explain, warnings_of
 from .operating_points import POINT, operating_points
@@ -227,6 +227,12 @@ def _digest_of_maps(scene: Scene) -> str:
         return str(error)
 
 
+def _scene_for_study(name: str) -> InputError:
+    """Return the error of a scene ``name`` where a study is expected."""
+    recommendation = f"give a study file with scene = {name!r}, or --points with a table of operating points"
+    return InputError(f"{name} is a scene, not a study", recommendation=recommendation)
+
+
 def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     """Return the plan in a study file.
 
@@ -244,6 +250,8 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     path = Path(path)
     if points is not None and (not path.is_file() or "scene" not in read_toml(path, "study")):
         return plan_study(load_scene(path if path.is_file() else str(path)), points=points)
+    if not path.is_file() and str(path) in builtin_scenes():
+        raise _scene_for_study(str(path))
     try:
         table = read_toml(path, "study")
     except InputError as error:
@@ -252,10 +260,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         recommendation = f"give a scene, and the table by --points {path.name}"
         raise InputError(f"{path.name} is a table, not a study", recommendation=recommendation) from error
     if "scene" not in table and not SCENE_SECTIONS.isdisjoint(table):
-        raise InputError(
-            f"{path.name} is a scene, not a study",
-            recommendation=f"give a study file with scene = {str(path.name)!r}, or --points with a table of operating points",
-        )
+        raise _scene_for_study(path.name)
     validate.keys(path.name, table, STUDY_KEYS)
     name: Any = table.get("scene")
     validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")

@@ -45,14 +45,14 @@ def test_every_input_stands_with_its_unit():
 def test_an_input_that_is_given_in_si_has_its_unit_in_the_report():
     """Density, temperature and radii were bare numbers: they are short forms, which no resolved scene holds."""
     given = {
-        "bodies": {"radii": [8e-3, 0.02]},
+        "bodies": {"radii": [8e-3, math.inf]},
         "lubricant": {"grade": "ISO VG 68", "viscosity_index": 95, "density": 870, "temperature_celsius": 70},
         "motion": {"speed_range": [1e-3, 10.0, 13]},
     }
     scene = lubfric.load_scene("paper").with_(**given)
     page = "".join(input_tables(scene, section, values) for section, values in given.items())
     used = set(re.findall(r'"value used">([^<]*)</td>', page))
-    assert {"870 kg/m³", "70 °C", "8 mm, 20 mm", "95", "0.001 m/s, 10 m/s, 13"} <= used
+    assert {"870 kg/m³", "70 °C", "8 mm, a plane", "95", "0.001 m/s, 10 m/s, 13"} <= used
 
 
 @pytest.mark.parametrize("width", [100, 60])

@@ -69,3 +69,8 @@ def test_a_sample_with_speeds_has_operating_points(tmp_path):
         lubfric.InputError, match="'speed' is what a curve is over; .* a column speed of operating points"
     ):
         plan_study(PAPER, {"speed": [0.1]})
+
+
+def test_a_built_in_scene_is_not_sought_as_a_file_of_a_study():
+    with pytest.raises(lubfric.InputError, match=r"^paper is a scene, not a study.*--points"):
+        load_study("paper")
