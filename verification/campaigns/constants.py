@@ -71,23 +71,18 @@ def points(module: str) -> dict[str, Callable[[], Numbers]]:
     patch = load_sharing.with_(numerics={"sampling": "patch"})
     mixed = {"mixed": _at(load_sharing, 0.03)}
     if room == FILM:
-        heavy = load_sharing.with_(
-            bodies={"radius": 10e-3, "load": 1500.0}, lubricant={"viscosity": 0.05, "eyring_stress": 5e6}
+        heavy = {"radius": 10e-3, "load": 1500.0}
+        heat = {"temperature_coefficient": 0.04, "temperature": 313.0}
+        hot = load_sharing.with_(
+            lubricant=heat | {"shear_modulus": 1e8, "eyring_stress": 5e6}, motion={"slide_roll_ratio": 0.1}
         )
-        hot = heavy.with_(
-            lubricant={
-                "temperature_coefficient": 0.04,
-                "temperature": 313.0,
-                "shear_modulus": 1e8,
-            },
-            motion={"slide_roll_ratio": 0.1},
-        )
-        return mixed | {
+        thin = {"viscosity": 0.05, "eyring_stress": 5e6}
+        return {
             "light": _at(load_sharing, 1.0),
             "starved": _at(load_sharing.with_(lubricant={"inlet_length": 6e-5}), 0.5),
-            "fed": _at(heavy.with_(lubricant={"inlet_film": 3e-7}), 5.0),
-            "heavy": _at(heavy, 3.0),
-            "hot": _at(hot, 3.0),
+            "fed": _at(load_sharing.with_(lubricant={"inlet_film": 3e-7}), 1.0),
+            "heavy": _at(load_sharing.with_(bodies=heavy, lubricant=thin), 3.0),
+            "hot": _at(hot, 1.0),
             "Carreau": _at(load_sharing.with_(lubricant={"carreau": [1e5, 0.6]}), 0.5),
         }
     if room == CONTACT:
@@ -125,18 +120,11 @@ def points(module: str) -> dict[str, Callable[[], Numbers]]:
         map_alone = alone.with_(numerics={"sampling": "patch"})
         return {"contact": _at(alone, 0.003), "mixed": _at(alone, 0.03), "patch": _at(map_alone, 0.03)}
     quick = paper.with_(numerics={"model": "quick"})
-    calibrated = {"calibrated": _at(quick, 0.03)}
     if room == QUICK:
-        return calibrated | {"rolling": _at(quick.with_(motion={"slide_roll_ratio": 0.1}), 0.03)}
-    return (
-        mixed
-        | calibrated
-        | {
-            "contact": _at(load_sharing, 0.001),
-            "lift-off": _at(load_sharing, 0.1),
-            "patch": _at(patch, 0.03),
-        }
-    )
+        rolling = quick.with_(motion={"slide_roll_ratio": 0.1})
+        return {"calibrated": _at(quick, 0.03), "rolling": _at(rolling, 0.03)}
+    lift_off = {"lift-off": _at(load_sharing, 0.1), "patch": _at(patch, 0.03)}
+    return mixed | lift_off | {"contact": _at(load_sharing, 0.001)}
 
 
 def _at(scene: lubfric.Scene, speed: float) -> Callable[[], Numbers]:
