@@ -31,6 +31,12 @@ TWO_VERBS = re.compile(
 )
 # A dotted name of lubfric in backquotes.
 DOTTED = re.compile(r"`(lubfric(?:\.\w+)+)\b")
+# Where a number comes from: a publication, a standard, a definition, a file, a command, a measurement, or an honest choice.
+SOURCE = re.compile(
+    r"doi|\b(18|19|20)\d\d\b|Eqs?\. ?\(|\b(ISO|DIN|ASTM|SI)\b|docs/|\.(toml|csv)\b|python -m|verification[./]|definition"
+    r"|[Mm]easured(?! (map|surface|point|height|area))|[Ff]itted|[Hh]alved|[Hh]alf and twice|[Hh]alf (changes|takes)|[Cc]hosen|[Cc]hoice|[Cc]onvention"
+    r"|\b[Ff]ollows? from|\b[Aa]s in "
+)
 # What stands in lubfric from before these rules: a number here may only fall.
 REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Names that tests import from inside a room, of all names that they import from lubfric.
@@ -130,6 +136,55 @@ def test_no_two_constants_have_one_name():
                     homes[name].add(path)
     assert len(homes) > 1000
     assert {name: sorted(paths) for name, paths in homes.items() if len(paths) > 1} == {}
+
+
+def has_number(node: ast.AST) -> bool:
+    """Return whether a value is made of numbers of its own: an index, or what a function or a loop in it has, is none."""
+    if isinstance(node, ast.Constant):
+        return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
+    if isinstance(node, ast.Subscript):
+        return has_number(node.value)
+    loops = (ast.Lambda, ast.ListComp, ast.DictComp, ast.GeneratorExp)
+    return not isinstance(node, loops) and any(map(has_number, ast.iter_child_nodes(node)))
+
+
+def constants_without_source(tree: ast.Module, text: str) -> list[str]:
+    """Return the numeric constants of a module whose comment, beside them or above them and the constants before them,
+    does not match `SOURCE`."""
+    lines = text.splitlines()
+    unnamed = []
+    for node in tree.body:
+        if not isinstance(node, (ast.Assign, ast.AnnAssign)):
+            continue
+        target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+        if not (isinstance(target, ast.Name) and target.id.isupper() and node.value and has_number(node.value)):
+            continue
+        comments = [line.partition("#")[2] for line in lines[node.lineno - 1 : node.end_lineno]]
+        above = lines[: node.lineno - 1]
+        while above and above[-1] and not above[-1].startswith("#"):
+            above.pop()
+        while above and above[-1].startswith("#"):
+            comments.append(above.pop().strip("# "))
+        if not SOURCE.search(" ".join(reversed(comments))):
+            unnamed.append(target.id)
+    return unnamed
+
+
+def test_every_constant_says_where_it_comes_from():
+    without = {
+        path: constants_without_source(tree, (ROOT / path).read_text(encoding="utf-8"))
+        for path, tree in trees("lubfric").items()
+    }
+    assert {path: names for path, names in without.items() if names} == {}
+
+
+@pytest.mark.parametrize(
+    "text, without",
+    [("A = 1.0  # m: a length", ["A"]), ("A = 1.0  # m: a choice", []), ("# Chosen.\nA = 1\nB = (2, 3)", [])]
+    + [("# Chosen.\nA = 1\n\nB = -2", ["B"]), ("# Chosen.\nA = 1\n# A length.\nB = [2]", ["B"]), ("A = NAMES[1]", [])],
+)
+def test_a_constant_without_a_source_is_seen(text, without):
+    assert constants_without_source(ast.parse(text), text) == without
 
 
 @pytest.mark.parametrize("package", PACKAGES)

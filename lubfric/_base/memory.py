@@ -22,15 +22,16 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 # Bytes of resident memory, more than after the last release, from which freed blocks are returned: a release takes
-# about 1 ms a 100 MB.
+# about 1 ms a 100 MB. A choice: less takes more time, more leaves more memory.
 RELEASED_GROWTH = 64 * 2**20
 
-# Bytes of the block whose release lets glibc keep as much again as it holds: a little less than the largest size from which
-# glibc learns, 32 MB (mallopt(3), "M_MMAP_THRESHOLD"). A Newton step on 10,368 cells takes 28 instead of 35 ms.
+# Bytes of the block whose release lets glibc keep as much again as it holds: a little less than the largest size from
+# which glibc learns, 32 MB (mallopt(3), "M_MMAP_THRESHOLD"). A Newton step on 10,368 cells takes 28 instead of 35 ms.
+# Chosen by it.
 LEARNED_SIZE = 32 * 2**20 - 2**16
 
-# Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB each,
-# and a margin. Where they get none they try again without end, and no signal stops them.
+# Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB
+# each, and a margin. Where they get none they try again without end, and no signal stops them. A choice of the margin.
 FIRST_ALGEBRA = 96 * 2**20
 
 _STATM = "/proc/self/statm"  # of Linux; the second number is the resident pages

@@ -60,13 +60,14 @@ MOST_JOINED_CELLS = 3_000_000
 KEPT_CELLS = 2_000_000
 
 # Correlation lengths along the motion between windows of a measured map that count as independent: a Gaussian
-# correlation is 1e-7 there, an exponential one 0.02.
+# correlation is 1e-7 there, an exponential one 0.02. A choice between these.
 WINDOW_DISTANCE = 4.0
 
 # A window passes into the next one on its width over this [-], at most. A choice: most of a window stays as measured.
 LEAST_OVER_BLEND = 4
 
-# Rows of a window of a measured map, and of a piece, are a multiple of this [-], so that cells can be joined twice.
+# Rows of a window of a measured map, and of a piece, are a multiple of this [-], so that cells can be joined twice. A
+# choice.
 WINDOW_ROWS_MULTIPLE = 4
 
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %. A

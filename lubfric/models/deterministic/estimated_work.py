@@ -31,9 +31,9 @@ from .strip_on_two_grids import sample_coarsening_of
 # -m verification.campaigns.estimates`, as all numbers below that name no other source.
 FINER_STEPS = 6
 
-# Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so many. A
-# thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A roller of 1 GPa
-# takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
+# Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so
+# many. A thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A
+# roller of 1 GPa takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq. Measured so.
 FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 
 # Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
@@ -48,16 +48,16 @@ ROUGH_WORK = 3.5
 # follows from a quarter of the cells each time, 1/4 + 1/16 + ...
 ON_LONGER_CELLS = 0.3
 
-# Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11 below and none of
-# 14 above it.
+# Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11
+# below and none of 14 above it. Measured there.
 ENOUGH_ALONE = 0.3
 
 # Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these
 # points. Measured there.
 PIECES_OF_MORE_STRIPS = 3.0
 
-# Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9 of these points,
-# and all others, solve one.
+# Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9
+# of these points, and all others, solve one. Measured there.
 PIECES_OF_RUBBED = 0.25
 
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice.

@@ -59,7 +59,7 @@ LEAST_THICKENED = 0.01
 # Iterations of GMRES in a step of soft bodies [-]: 14 on longer cells, 19 on the strip itself. Measured.
 SOFT_KRYLOV = 18.0
 
-# Part of the steps that a neighbour of a solved strip of soft bodies takes [-]: 2 of 100 to all.
+# Part of the steps that a neighbour of a solved strip of soft bodies takes [-]: 2 of 100 to all. Measured.
 SOFT_AGAIN = 0.2
 
 

@@ -29,9 +29,9 @@ LEAST_STEP_PART = 0.1
 # Halvings of a step, at most, while the mass residual grows [-]: a bound. Half and twice change nothing.
 STEP_HALVINGS = 10
 
-# Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more work,
-# twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes 11, 12,
-# 12, 11, 13, 16, and 10 takes up to 35.
+# Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more
+# work, twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes
+# 11, 12, 12, 11, 13, 16, and 10 takes up to 35. Chosen by these.
 RESIDUAL_GROWTH = 1.05
 
 # Factor by which the residual may grow in a step as short as `LEAST_STEP_PART`, or at rest by cells that change their
@@ -59,8 +59,8 @@ TIME_STEP_SHRINKAGE = 0.25
 # 55 % less work on the soft film of the campaign.
 WAIT = 3
 
-# Factors of a step in time after one that was solved [-]: after at most `EASY_STEPS` Newton steps, and after more. Half, so
-# that they never grow, takes 39 % less work on a soft film, twice 24 % more.
+# Factors of a step in time after one that was solved [-]: after at most `EASY_STEPS` Newton steps, and after more.
+# Half, so that they never grow, takes 39 % less work on a soft film, twice 24 % more. Chosen by these.
 GROW = (2.0, 1.5)
 
 # Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film;

@@ -52,8 +52,8 @@ FILM_INLET = 1.5
 # sqrt(2 R h) to the outlet end [-], at least. Half and twice change nothing.
 FILM_OUTLET = 0.8
 
-# Pressure-viscosity coefficient times Hertz pressure below which pressure thickens the lubricant little: no strip above 0.7
-# took long by Newton's method alone, and one of 0.7 did at 19 GPa.
+# Pressure-viscosity coefficient times Hertz pressure below which pressure thickens the lubricant little: no strip above
+# 0.7 took long by Newton's method alone, and one of 0.7 did at 19 GPa. Chosen by these.
 ISOVISCOUS = 1.0
 
 MOST_GRID_CELLS = 2**20  # cells; at most: a choice, for memory

@@ -71,12 +71,13 @@ LENGTH_OF_LAST_PIECE = 14.0
 # Part of the change of f on a piece of that length by which it may be off the mean over the surface [-]. A convention.
 ERROR_OF_SHORT_PIECE = 0.5
 
-# Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error.
+# Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error. A
+# choice.
 FIXED_FILM_RATIO = 2.0
 
-# Relative change of f by twice the boundary film [-] above which pieces are solved at the speed of the point itself: a soft
-# roller whose film is just thicker (f 0.0037, 0.013 by twice) was corrected to 0.0111 by pieces at half the speed, whose
-# film is not.
+# Relative change of f by twice the boundary film [-] above which pieces are solved at the speed of the point itself: a
+# soft roller whose film is just thicker (f 0.0037, 0.013 by twice) was corrected to 0.0111 by pieces at half the speed,
+# whose film is not. Chosen by it.
 SPEED_MATTERS = 1.0
 
 # Part of the work that a point has left, which its pieces may take [-]: the rest is for the ends of input
@@ -86,9 +87,10 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
 
-# Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in the
-# Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the half-width of
-# a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
+# Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in
+# the Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the
+# half-width of a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001,
+# .01000 at Λ 2.2. Chosen to cover these.
 SOFT_CELL_ERROR = 1.5
 
 

@@ -18,8 +18,8 @@ RUPTURED = 1
 # Kind of a cell: the bodies touch, the gap is the floor. A name by choice.
 TOUCHING = 2
 
-# Part of the second difference of the last three masses that makes a step of BDF2 one of BDF3 [-]: (11 m - 18 m1 + 9 m2 -
-# 2 m3)/6 is the change of m + (m - m1)/2 + (m - 2 m1 + m2)/3 from step to step.
+# Part of the second difference of the last three masses that makes a step of BDF2 one of BDF3 [-]: (11 m - 18 m1 + 9 m2
+# - 2 m3)/6 is the change of m + (m - m1)/2 + (m - 2 m1 + m2)/3 from step to step. By definition of BDF3.
 CURVATURE = 1.0 / 3.0
 
 # Part of the mass of a cell by which it is extrapolated at most [-], as by the limiter of the Couette flow
@@ -27,9 +27,9 @@ CURVATURE = 1.0 / 3.0
 MOST_EXTRAPOLATED = 0.5
 
 # Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
-# ruptures spares its neighbours, and one that ruptured in vain fills late. A roller of 1 GPa takes 2.9 Newton steps in a step
-# in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1, 2.4, 2.9, 4.4. At rest at 0.03 m/s a grid of 251 x
-# 240 cells takes 72 with 0, and 28 with 0.5.
+# ruptures spares its neighbours, and one that ruptured in vain fills late. A roller of 1 GPa takes 2.9 Newton steps in
+# a step in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1, 2.4, 2.9, 4.4. At rest at 0.03 m/s a
+# grid of 251 x 240 cells takes 72 with 0, and 28 with 0.5. Chosen by these.
 STRONG_SUCTION = 0.5
 
 # Suction of a touching cell over U times the floor over dx, below which it keeps touching [-]. A choice: with 0,

@@ -37,15 +37,15 @@ LONGER_CELLS_RESIDUAL = 1e-2
 MANY_CELLS = 12_000
 
 # Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times
-# changes f by 3 %, for more strips are solved then.
+# changes f by 3 %, for more strips are solved then. A choice: nearer to 1 the tolerance of a solve shows.
 SECOND_LOAD = 1.03
 
 # Ratios of successive changes from grid to grid between which they are taken to fall [-]. Half changes nothing, twice
 # the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
-# Ratio of successive changes from grid to grid, at most, where their series ends at native cells [-]: 1.7 to 2.2 was seen at
-# 110 N on cells from 1.8 to 0.45 µm.
+# Ratio of successive changes from grid to grid, at most, where their series ends at native cells [-]: 1.7 to 2.2 was
+# seen at 110 N on cells from 1.8 to 0.45 µm. A choice between these.
 GROWING = 2.0
 
 # Ratio of successive changes from grid to grid where there is one change only [-]: as measured on cells of 3.6, 1.8 and

@@ -49,8 +49,8 @@ MOST_PIECE_CELLS = 300_000
 # that of the strips.
 PIECE_SHARE = 0.5
 
-# Change of the gap's change over its size, per ln of the contact load, at most: less than 1.5 was seen on Gaussian
-# and measured surfaces.
+# Change of the gap's change over its size, per ln of the contact load, at most: less than 1.5 was seen on Gaussian and
+# measured surfaces. A choice above it.
 BY_LOAD = 2.0
 
 

@@ -32,7 +32,7 @@ STARVED_ERROR = Sides(0.5, 0.1)
 LEAST_WITH_FILM = 0.1
 
 # Film-to-roughness ratio from which the flanks add less, with the square of it: 2.4 times the rolling force were seen
-# at 2.
+# at 2. A choice below it.
 FLANKS = 1.5
 
 

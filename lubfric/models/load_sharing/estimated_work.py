@@ -69,7 +69,8 @@ FILM_SECONDS = 0.015
 HOT = 5.0
 
 # Factor on the time where the heights are not smooth over a cell and the film carries a part of the load (`SHARED`),
-# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than `FEW_CELLS_OF_LENGTH`.
+# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than
+# `FEW_CELLS_OF_LENGTH`. Measured so.
 ROUGH_TIMES = 1.5
 ROUGH_TIMES_ON_LONG_CELLS = 6.0
 

@@ -30,17 +30,20 @@ from ..deterministic import (
 )
 from ..shared import Memo
 
-# Cells in a correlation length along x and along y, at least, where roughness rests: f differs from that on cells half as
-# long by 1.4 % (median of 276 cases), and a strip takes .16 s.
+# Cells in a correlation length along x and along y, at least, where roughness rests: f differs from that on cells half
+# as long by 1.4 % (median of 276 cases), and a strip takes .16 s. Measured by `verification.campaigns.calibration`; a
+# choice between error and time.
 CELLS_AT_REST = (2.5, 2.0)
 
-# Cells in a correlation length along x and along y, at least, where roughness moves: f differs from that on cells half as
-# long by 3.4 % (median of 198 cases), and a strip takes .7 s.
+# Cells in a correlation length along x and along y, at least, where roughness moves: f differs from that on cells half
+# as long by 3.4 % (median of 198 cases), and a strip takes .7 s. Measured by `verification.campaigns.calibration`; a
+# choice between error and time.
 CELLS_IN_MOTION = (2.0, 1.25)
 
-# Cells along x in the place of the first of these where f depends on the boundary film, because a film that long cells make
-# too thin changes f most there: of 11 such cases cells twice as short along x explain half of the error, along y less. A
-# step in time takes 1.5 times as long, and there are 1.5 times as many.
+# Cells along x in the place of the first of these where f depends on the boundary film, because a film that long cells
+# make too thin changes f most there: of 11 such cases cells twice as short along x explain half of the error, along y
+# less. A step in time takes 1.5 times as long, and there are 1.5 times as many. Measured by
+# `verification.campaigns.calibration`; a choice between error and time.
 CELLS_OF_THIN_FILM = 3.0
 
 # Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width
@@ -60,7 +63,8 @@ NEAR_AT_REST = 0.03
 # Effort in the place of `TIGHT`: steps end at ten times its residual, which goes into the next step. f of four rollers
 # moves by up to 0.06 % at five times, their counted work falls by 15 to 25 %; ten times takes 2 to 18 % less than five,
 # and f of ten rolling contacts moves by up to 0.23 %. A continuation discards as much as an economical one: then the
-# ends of a range of the stress of an oil change f of two gear flanks by 20 to 43 % instead of 15 to 44 %.
+# ends of a range of the stress of an oil change f of two gear flanks by 20 to 43 % instead of 15 to 44 %. Chosen by
+# these.
 LOOSER_EFFORT = replace(TIGHT, residual=1e-3, carries_imbalance=True, linear=0.1, discarded_again=1.6)
 
 # Cells in the Hertz half-width along x, at least, where roughness rests: as in the solved cases. Where it moves, there are as

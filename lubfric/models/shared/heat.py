@@ -40,7 +40,7 @@ TYPICAL = (343.15, 0.035)
 # (`InletHeat.other`).
 PART_IN_ERROR = 0.5
 
-# Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1.
+# Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1. A choice between them.
 VISCOSITY_EXPONENT = 0.7
 
 

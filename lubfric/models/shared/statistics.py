@@ -8,7 +8,7 @@ import numpy as np
 from ..._base import FloatArray
 
 # Mean square of the change of the heights over two cells, over that over one, of smooth heights, at least: 4 of a
-# parabola, 2 of an exponential autocorrelation.
+# parabola, 2 of an exponential autocorrelation. A choice between them.
 SMOOTH_RATIO = 3.0
 
 # Blocks of a line, at most. The constants of this module are judged by the coverage of the 95 % intervals (`python -m
@@ -34,7 +34,8 @@ LEAST_BLOCK_LENGTH = 5.0
 # correlation. It follows from these integrals.
 SHARED_LENGTH = 1 / math.sqrt(math.pi)
 
-# Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only.
+# Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only. A choice,
+# judged as `MOST_BLOCKS`.
 STRIPS_SAFETY = 1.3
 
 # Factor by which a sample grows, at least: fewer new strips tell little that is new. Not measured:
