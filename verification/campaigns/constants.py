@@ -9,6 +9,7 @@ measure them again.
 
 import ast
 import importlib
+import inspect
 import math
 import pkgutil
 import sys
@@ -185,7 +186,8 @@ def scaled(value: float | tuple[float, ...], factor: float) -> float | tuple[flo
 
 
 class Changed:
-    """A constant that has another value inside, in its module and in all that import it by its name."""
+    """A constant that has another value inside, in its module, in all that import it by its name, and where it is the
+    default of a parameter there."""
 
     def __init__(self, module: str, name: str, value: object) -> None:
         self.name = name
@@ -194,17 +196,55 @@ class Changed:
         for other, holder in list(sys.modules.items()):
             if other.startswith("lubfric") and other != module and _imports(holder, module, name):
                 self.holders.append(holder)
-        self.before = [getattr(holder, name) for holder in self.holders]
+        self.before: list[tuple[Any, str, Any]] = []
 
     def __enter__(self) -> None:
         for holder in self.holders:
-            setattr(holder, self.name, self.value)
+            for function, parameters in _with_default(holder, self.name):
+                self._change_defaults(function, parameters)
+            self._set(holder, self.name, self.value)
         _forget()
 
     def __exit__(self, *exception: object) -> None:
-        for holder, value in zip(self.holders, self.before, strict=True):
-            setattr(holder, self.name, value)
+        for thing, attribute, value in self.before:
+            setattr(thing, attribute, value)
         _forget()
+
+    def _set(self, thing: Any, attribute: str, value: object) -> None:
+        self.before.append((thing, attribute, getattr(thing, attribute)))
+        setattr(thing, attribute, value)
+
+    def _change_defaults(self, function: Any, parameters: list[str]) -> None:
+        keywords = dict(function.__kwdefaults__ or {})
+        every = inspect.signature(function).parameters.values()
+        positional = [one for one in every if one.default is not one.empty and one.name not in keywords]
+        keywords |= {name: self.value for name in parameters if name in keywords}
+        values = [self.value if one.name in parameters else one.default for one in positional]
+        self._set(function, "__defaults__", tuple(values) or None)
+        self._set(function, "__kwdefaults__", keywords or None)
+
+
+def _with_default(module: ModuleType, constant: str) -> Iterator[tuple[Any, list[str]]]:
+    """Yield the functions, methods and records of ``module`` with a ``constant`` as default, and the names of these
+    parameters."""
+    tree = ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8"))
+    holders: list[tuple[Any, ast.Module | ast.ClassDef]] = [(module, tree)]
+    holders += [(getattr(module, node.name), node) for node in tree.body if isinstance(node, ast.ClassDef)]
+    for holder, body in holders:
+        for node in body.body:
+            if isinstance(node, ast.FunctionDef):
+                every = node.args.args
+                pairs: list[tuple[ast.arg, ast.expr | None]] = []
+                pairs += zip(every[len(every) - len(node.args.defaults) :], node.args.defaults, strict=True)
+                pairs += zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+                names = [
+                    argument.arg for argument, value in pairs if isinstance(value, ast.Name) and value.id == constant
+                ]
+                if names:
+                    function = inspect.unwrap(getattr(holder, node.name))
+                    yield getattr(function, "__func__", function), names
+            elif isinstance(node, ast.AnnAssign) and getattr(node.value, "id", "") == constant:
+                yield holder.__init__, [ast.unparse(node.target)]  # the field of a record
 
 
 def _forget() -> None:

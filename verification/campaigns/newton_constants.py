@@ -6,15 +6,12 @@ which films have no solution then. The work is counted from cells, factorisation
 shows the same.
 """
 
-import ast
 import importlib
-import inspect
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any
 
 import lubfric
 from lubfric.film import LineContact
@@ -122,54 +119,6 @@ def films() -> dict[str, Callable[[], Film]]:
     }
 
 
-class ChangedDefaults(Changed):
-    """A constant that has another value inside, also where it is the default of a parameter."""
-
-    def __enter__(self) -> None:
-        super().__enter__()
-        self.defaults: list[tuple[Any, str, Any]] = []
-        for function, parameters in _with_default(self.name):
-            for attribute in ("__defaults__", "__kwdefaults__"):
-                self.defaults.append((function, attribute, getattr(function, attribute)))
-            signature = inspect.signature(function).parameters
-            keywords = dict(function.__kwdefaults__ or {})
-            positional = [
-                one for one in signature.values() if one.default is not one.empty and one.name not in keywords
-            ]
-            keywords |= {name: self.value for name in parameters if name in keywords}
-            values = [self.value if one.name in parameters else one.default for one in positional]
-            function.__defaults__ = tuple(values) or None
-            function.__kwdefaults__ = keywords or None
-
-    def __exit__(self, *exception: object) -> None:
-        for function, attribute, values in self.defaults:
-            setattr(function, attribute, values)
-        super().__exit__(*exception)
-
-
-def _with_default(constant: str) -> Iterator[tuple[Any, list[str]]]:
-    """Yield the functions and methods of `MODULES` with a ``constant`` as default, and the names of these parameters."""
-    for module in map(importlib.import_module, MODULES):
-        tree = ast.parse(inspect.getsource(module))
-        classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
-        holders: list[tuple[Any, ast.Module | ast.ClassDef]] = [(module, tree)]
-        holders += [(getattr(module, node.name), node) for node in classes]
-        for holder, body in holders:
-            for node in body.body:
-                if isinstance(node, ast.FunctionDef):
-                    every = node.args.args
-                    pairs: list[tuple[ast.arg, ast.expr | None]] = []
-                    pairs += zip(every[len(every) - len(node.args.defaults) :], node.args.defaults, strict=True)
-                    pairs += zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
-                    names = [
-                        argument.arg
-                        for argument, value in pairs
-                        if isinstance(value, ast.Name) and value.id == constant
-                    ]
-                    if names:
-                        yield getattr(holder, node.name), names
-
-
 def solved() -> dict[str, Film]:
     """Return all films, solved, by name."""
     return {name: solve() for name, solve in films().items()}
@@ -204,7 +153,7 @@ def main() -> None:
             if value == 1 and factor < 1 and isinstance(value, int):  # half of one cell or step
                 continue
             try:
-                with ChangedDefaults(module, name, scaled(value, factor)):
+                with Changed(module, name, scaled(value, factor)):
                     words = line(base, solved())
             except Exception as error:  # noqa: BLE001  # a value that nothing allows is a result here
                 words = f"{type(error).__name__}: {str(error)[:60]}"
