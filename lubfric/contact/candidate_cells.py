@@ -26,7 +26,7 @@ DENSE = 0.6
 # Rows: windows of nearly the same width share their operator. A choice: more costs cells, less costs operators.
 ROUND = 8
 # Points along each axis of the quarter of the Brillouin zone over which |k| is averaged. A choice, made once for an
-# operator.
+# operator. Half and twice change f by less than .01 % and the work by less than 1 % (constants.csv).
 BRILLOUIN_POINTS = 64
 # Cells that stay in the cache from one pass to the next. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.

@@ -30,7 +30,8 @@ LIGHT_LAW_PRESSURE = 1e-6
 # A choice: a quarter of the error that is allowed.
 TOUCH_DISTANCE = 0.25
 # Ratio of the pressures of neighbouring nodes at first [-]; small maps have its root. A choice: where nodes are too far
-# apart, some are added between them.
+# apart, some are added between them. Half and twice change f by less than .1 % and the work by up to 13 %
+# (constants.csv).
 SPACING = 4.0
 # Cells of a small map, whose summits come into contact one by one. A choice: larger costs nodes.
 SMALL_MAP = 128**2
@@ -50,7 +51,7 @@ CLOSEST_NODES = 0.05
 # Gap over the lightest one [-] below which the contact is full. A choice, near rounding.
 CLOSED_GAP = 1e-9
 # Asperity load ratio [-] above which a relative error of the load is one of f. A choice: below it the error weighs less
-# in proportion.
+# in proportion. Half and twice change f by less than .01 % and the work by up to 4 % (constants.csv).
 LOAD_ERROR_MATTERS = 0.1
 
 # Points across the strip at which the film is averaged. A choice: the film is known to fewer digits.

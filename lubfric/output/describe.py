@@ -54,7 +54,7 @@ SOME = 25
 # Speeds in the table, about. A choice.
 TABLE_SPEEDS = 6
 
-# Characters of a heading that is not broken.
+# Characters of a heading that is not broken. A choice, by looking at the table.
 LEAST_HEADING = 7
 
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"

@@ -34,7 +34,8 @@ from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 from .windows import blend_of, joined_maps, spread_order, starts_of
 
 # Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py). A choice: longer
-# strips may be longer than a point needs.
+# strips may be longer than a point needs. Half and twice change f by up to 3.8 %, its interval by up to 2.5 % and the
+# work by up to 10 % less (constants.csv).
 STRIP_LENGTHS = 90.0
 
 # Correlation lengths in the Hertz half-width from which on a strip half as long has as many asperity contacts. Not

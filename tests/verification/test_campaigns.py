@@ -2,13 +2,14 @@
 
 import json
 import time
+from importlib import import_module
 
 import numpy as np
 import pytest
 
 from verification import kept
 from verification.__main__ import main
-from verification.campaigns import opponents
+from verification.campaigns import constants, opponents, table_file
 from verification.campaigns.charts import contact
 from verification.campaigns.charts.measure import machine
 from verification.campaigns.model import answers
@@ -152,3 +153,11 @@ def test_methods_agree_and_errors_fall_with_the_tolerance():
 def test_a_chart_says_which_solvers_of_others_are_missing(monkeypatch):
     monkeypatch.setattr(opponents, "version", lambda package: "2.9.0" if package == "tamaas" else "")
     assert "tamaas 2.9.0, aspher not installed" in machine()
+
+
+def test_the_table_of_constants_is_of_the_values_of_today():
+    """A constant that changed is measured again: its rows are removed, and the command appends them."""
+    rows = table_file.rows(constants.TABLE)
+    now = [getattr(import_module(f"lubfric.{row['module']}"), row["constant"], None) for row in rows]
+    assert [row["constant"] for row, value in zip(rows, now) if row["value"] != str(value)] == []
+    assert len(rows) > 200

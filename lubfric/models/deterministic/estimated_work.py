@@ -63,8 +63,8 @@ PIECES_OF_RUBBED = 0.25
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice.
 RUBBED_FILM = 0.25
 
-# The same of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it (.05, .07), and one
-# above it (.13).
+# The same of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it (.05,
+# .07), and one above it (.13). Chosen between them.
 RUBBED_FILM_OF_SHORT_STRIP = 0.1
 
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
@@ -80,8 +80,8 @@ LAST_LEVEL_OF_MORE_STRIPS = 0.4
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
 
-# Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the same, most of
-# all where the arrays are small.
+# Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the
+# same, most of all where the arrays are small. Measured so.
 AT_REST_ON_LONG_CELLS = 0.9
 
 # Processor time of moving roughness over its counted work [-]: .44 to .56 in five jobs of

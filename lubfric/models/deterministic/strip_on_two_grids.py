@@ -17,10 +17,12 @@ from .result import DeterministicResult
 from .rough_bodies import bodies_of, map_of_strip, summit_control
 from .strip import UNKNOWN_SLOPE, StripSolution, solve_strip
 
-# Cells in a correlation length, at least. A choice: fewer show no correlation.
+# Cells in a correlation length, at least. A choice: fewer show no correlation. Half and twice change f by up to 1.3 %,
+# its interval by up to 6.4 % and the work by up to 590 % (constants.csv).
 PER_LENGTH = 2.0
 
-# Cells in the Hertz half-width along x, at least. A choice: fewer show no contact.
+# Cells in the Hertz half-width along x, at least. A choice: fewer show no contact. Half and twice change f by up to 1.8
+# %, its interval by up to 28 % and the work by up to 270 % (constants.csv).
 PER_HALF_WIDTH = 1.0
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: less
 # takes longer, more leaves less to other errors.

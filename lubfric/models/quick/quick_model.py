@@ -51,11 +51,13 @@ from .strips_on_long_cells import (
     solve_on_long_cells,
 )
 
-# Strips at rest, about, of points whose first one has a small sampling error: one or two of 11 random points.
+# Strips at rest, about, of points whose first one has a small sampling error: one or two of 11 random points. Measured
+# so.
 USUAL_STRIPS = 1.5
 
-# Expected standard error of f by one strip, over that which the first strips by load sharing leave times the root of their number,
-# for which strips are solved [-]: about a fifth of the bounds by the cells.
+# Expected standard error of f by one strip, over that which the first strips by load sharing leave times the root of
+# their number, for which strips are solved [-]: about a fifth of the bounds by the cells. It follows from
+# `SAMPLING_OVER_BOUNDS`.
 EXPECTED_TARGET = 0.05
 
 BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"
