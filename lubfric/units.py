@@ -26,7 +26,7 @@ from typing import Any
 from .errors import InputError
 
 ZERO_CELSIUS = Decimal("273.15")  # K
-# Decimals of a number that is printed with its interval, at most. A choice.
+# Decimals of a number that is printed with its interval, at most. A choice: more shows rounding.
 MOST_DECIMALS = 7
 
 # Numbers without a unit below the one, or from the other on, are printed with a power of ten. A choice, for numbers
@@ -39,7 +39,7 @@ PEOPLE: dict[str, list[str]] = _TABLE["people"]
 SANE: dict[str, list[float]] = _TABLE["sane"]
 HV = UNITS["Pa"]["HV"]
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-LONGEST_TEXT = 200  # characters of a number with its unit; a choice
+LONGEST_TEXT = 200  # characters of a number with its unit; a choice: longer text is no number
 # Of conversions: that of the host may have any precision, and traps. 60 digits are a choice, far more than numbers
 # have.
 _EXACT = Context(

@@ -26,23 +26,24 @@ WATCH = 0.2
 # Most processes of a command. A choice: more than a machine has cores.
 MOST_WORKERS = 1024
 
-# Time that an interrupted process is waited for [s]. A choice.
+# Time that an interrupted process is waited for [s]. A choice: less ends it in the middle of a write.
 LAST_WAIT = 2.0
 
-# Time that a scheduler has to answer [s]. A choice.
+# Time that a scheduler has to answer [s]. A choice: less gives up slow networks.
 CONNECT = 10.0
 
-# Time after which the client of a scheduler that answers is given up [s]. A choice.
+# Time after which the client of a scheduler that answers is given up [s]. A choice: less gives up slow clusters.
 LONGEST_START = 60.0
 
 # Protocols of a scheduler over a connection of TCP; and those in which the client speaks first.
 SCHEMES = ("tcp", "tls", "ws", "wss")
 CLIENT_FIRST = ("tls:", "ws:", "wss:")
 
-# Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory. A choice.
+# Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory. A choice:
+# less leaves workers idle, more takes memory.
 IN_FLIGHT = 4096
 
-# Times that an executor may lose a job before it is done here. A choice.
+# Times that an executor may lose a job before it is done here. A choice: more repeats jobs that end their process.
 ATTEMPTS = 3
 
 ENDING = (signal.SIGINT, signal.SIGTERM)

@@ -9,7 +9,8 @@ from typing import Any
 
 from ..errors import CONVERGED, ITERATION_LIMIT
 
-NEARER = 0.3  # of the value before: the secant leads on. A choice
+# Of the value before: the secant leads on. A choice: more takes longer secant steps, which may miss the root.
+NEARER = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)

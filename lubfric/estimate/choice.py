@@ -14,7 +14,7 @@ from .solve_to_tolerance import solve_to_tolerance
 
 # Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
 # a point ends with. As much is left to the answer, and to the ends of input ranges, after a more expensive model was
-# tried in vain. A choice.
+# tried in vain. A choice: less leaves points without an answer.
 LEAST_WORK_OF_CHEAPEST = 10.0
 
 # Severe violations with which f may mean something by another model: one that continues the patch is not cut off.

@@ -203,7 +203,7 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
 
 
 UNFINISHED = "unfinished"
-MOST_TOML = 2**20  # bytes: a larger file names no inputs; a choice
+MOST_TOML = 2**20  # bytes: a larger file names no inputs; a choice: less misses long scenes, more reads in vain
 # Options of commands that name files they read.
 INPUTS = ("scene", "surface", "counterface", "study", "measured", "points")
 

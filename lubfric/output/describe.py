@@ -51,7 +51,7 @@ from .inputs import FACTS, input_rows
 # Speeds of many at which the work is counted, about. A choice: fewer take less time, and estimate worse.
 SOME = 25
 
-# Speeds in the table, about. A choice.
+# Speeds in the table, about. A choice: more fills the screen.
 TABLE_SPEEDS = 6
 
 # Characters of a heading that is not broken. A choice, by looking at the table.
@@ -69,7 +69,7 @@ FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
-# digits. A choice.
+# digits. A choice: any number between rounding and a speed does.
 STANDSTILL_PART = 1e-8
 # Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01

@@ -18,7 +18,10 @@ from .contact_pictures import DrawnContact
 
 # Fields of `lubfric.models.ContactFields`, all on the same cells.
 FIELDS = ("heights", "pressure", "gap", "deflection", "film", "shear")
-SAME_SPEED = 1e-3  # relative: a speed as a user reads it, of three digits; a choice
+
+# Relative: a speed as a user reads it, of three digits; a choice: less misses speeds that a user rounds.
+SAME_SPEED = 1e-3
+
 OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "rubbing", "wet")  # of a `DeterministicResult`
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from .._base.processes import begin_beside
 from ..studies import in_words
 
-REFRESH = 1.0  # s between two drawings of the line; a choice
+REFRESH = 1.0  # s between two drawings of the line; a choice: less flickers
 CLEAR_LINE = "\r\033[K"  # to the begin of the line, and nothing on it
 
 _active: ProgressLine | None = None

@@ -52,7 +52,7 @@ OF_OUTPUT = {
 
 # What a smallest film of `FLOOR` is.
 GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
-# Relative rounding error of that gap as a mean over strips. A choice.
+# Relative rounding error of that gap as a mean over strips. A choice: any number between rounding and a nanometre does.
 FLOOR_ROUNDING = 1e-6
 # Rows of the table of a run in time, about. A choice, for a table that can be read.
 HISTORY_ROWS = 13
@@ -61,7 +61,7 @@ BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
 # A number smaller than this times the largest of its column is 0 in a table: frequencies are written with nine digits.
-# A choice.
+# A choice: any number between rounding and a digit shown does.
 TABLE_ROUNDING = 1e-8
 
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
@@ -70,7 +70,7 @@ FULL_FILM_PART = 0.01
 # Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
 MOST_STEP = 10.0
 
-# Factor on the speed, of which the change of f is stated. A choice.
+# Factor on the speed, of which the change of f is stated. A choice: any other is as good.
 FASTER = 1.1
 
 # Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.

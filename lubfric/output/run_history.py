@@ -26,7 +26,7 @@ PART_OF_LINE = 0.04
 PART_OF_TIME_LEFT = 0.08
 
 
-# Time without an output after which a line says how far the run is [s]. A choice.
+# Time without an output after which a line says how far the run is [s]. A choice: less fills the screen.
 MOST_SILENCE = 10.0
 
 

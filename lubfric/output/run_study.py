@@ -81,13 +81,15 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(message, report, result)
 
 
-# Time between two points up to which a process handed them over together [s]. A choice.
+# Time between two points up to which a process handed them over together [s]. A choice: less counts a batch as points
+# one by one, and the time left jumps.
 SECONDS_OF_A_BATCH = 0.2
 
-# Time after which points that come one after the other are counted anew for the time left [s]. A choice.
+# Time after which points that come one after the other are counted anew for the time left [s]. A choice: more updates
+# the time left later.
 LONGEST_BATCH = 5.0
 
-# Points of a study up to which each one gets a line on stderr. A choice.
+# Points of a study up to which each one gets a line on stderr. A choice: more fills the screen.
 MOST_LINES = 200
 
 

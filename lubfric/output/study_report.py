@@ -61,9 +61,10 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     ASPERITY_LOAD_RATIO: None,
 }
 
-# Digits of what is varied, which is exact. A choice.
+# Digits of what is varied, which is exact. A choice: less makes neighbours alike.
 CELL_DIGITS = 4
-# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice.
+# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
+# shows digits that are not known.
 DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
 # Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
@@ -82,7 +83,8 @@ IN_PURE_ROLLING = (
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")
 
-# Combinations of what is varied beside operating points whose means are reported, at most. A choice.
+# Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
+# of a text.
 MOST_MEANS = 6
 CAPTION = "The results of the study"
 

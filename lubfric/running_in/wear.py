@@ -54,7 +54,8 @@ NM = 1e9  # nanometres in a metre, by definition
 # random run).
 BALANCES_OF_RECORD = 11
 
-# Records of a run whose asperities carry nothing, after which wear ends: the first and one after it. A choice.
+# Records of a run whose asperities carry nothing, after which wear ends: the first and one after it. A choice: one
+# alone may be chance.
 RECORDS_WITHOUT_LOAD = 2
 
 # Processor seconds of a balance, whatever its cells; and over its cells. Measured on the runs of

@@ -51,13 +51,16 @@ MOVING_STRIP_LENGTHS = 30.0
 # many change f by up to 1.7 %, within the sampling tolerance of 2 % (`python -m verification.campaigns.constants`).
 FIRST_LENGTHS = 180.0
 
-# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice.
+# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice: more
+# takes longer and more memory.
 MOST_LENGTHS = 46080.0
 
-# Cells of joined strips, at most, for memory: 24 MB for each field. A choice.
+# Cells of joined strips, at most, for memory: 24 MB for each field. A choice: more takes more memory, less leaves wide
+# contacts shorter strips.
 MOST_JOINED_CELLS = 3_000_000
 
-# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights. A choice.
+# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights. A choice: less makes
+# strips again.
 KEPT_CELLS = 2_000_000
 
 # Correlation lengths along the motion between windows of a measured map that count as independent: a Gaussian
@@ -68,11 +71,11 @@ WINDOW_DISTANCE = 4.0
 LEAST_OVER_BLEND = 4
 
 # Rows of a window of a measured map, and of a piece, are a multiple of this [-], so that cells can be joined twice. A
-# choice.
+# choice: more cuts off more rows.
 WINDOW_ROWS_MULTIPLE = 4
 
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %. A
-# choice.
+# choice: more lets windows reach over the ends of more maps.
 ENOUGH_WINDOWS = 8
 
 # Deviation of the Sq of strips from that of their map, relative, below which it is not stated. A convention.
@@ -81,7 +84,7 @@ SMALL_DEVIATION = 0.02
 # Half of the 95 % interval of a normal distribution over its standard deviation. By definition.
 NORMAL_REACH = 1.96
 
-# Stream of seeds of strips. A choice.
+# Stream of seeds of strips. A choice: any number, but another than that of pieces.
 SEEDS_OF_STRIPS = 0
 
 # Stream of seeds of pieces. A choice: another one than that of strips.

@@ -26,7 +26,7 @@ from .transient import HISTORY_KINDS, Transient
 
 # Keys of [motion] that state the sliding.
 SLIDING_KEYS = {"slide_roll_ratio", "slip_percent", "surface_speeds"}
-LONGEST_NAME = 500  # characters of the name of a scene; a choice
+LONGEST_NAME = 500  # characters of the name of a scene; a choice: longer ones fill a title
 VALUES_OF_RESOLVED_GAP = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),

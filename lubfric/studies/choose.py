@@ -42,7 +42,7 @@ MIXED_FILM_RATIOS = (0.5, 1.5, 4.5)
 # `python -m verification.campaigns.estimates` have 11 to 15 points, 197 in all, two fifths of them above 1.5.
 EXPECTED_FILM_RATIOS = (0.07, 0.2, 0.5, 0.85, 1.15, 1.5, 2.1, 2.7, 4.5, 5.2)
 
-# Speeds that a curve chooses, about: these and both ends. A choice.
+# Speeds that a curve chooses, about: these and both ends. A choice: it moves estimates alone.
 EXPECTED_SPEEDS = 12
 
 # Speeds to begin with. It follows from both ends and `MIXED_FILM_RATIOS`: a choice.
@@ -79,7 +79,8 @@ ENOUGH_SPEEDS = 2
 ESTIMATE_SHARE = 0.5
 MANY_SPEEDS = 11
 
-# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed. A choice.
+# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed. A choice: less
+# takes points that tell nothing new.
 LEAST_SPEED_RATIO = 1.015
 
 # Speeds at which the error between the points is estimated. A choice: finer than any two speeds of a curve.

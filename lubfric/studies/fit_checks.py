@@ -26,10 +26,11 @@ RANDOM_RESIDUALS = 9999
 # Numbers in these, at most: more points are compared with fewer. A choice, for memory.
 MOST_NUMBERS = 5_000_000
 
-# Fewest points of which the order is tested. A choice.
+# Fewest points of which the order is tested. A choice: fewer have no order.
 FEWEST_OF_ORDER = 4
 
-# Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it. A choice.
+# Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it. A choice:
+# less tests columns of rounding.
 LEAST_REST = 1e-3
 
 # Share of the sum of squares from which an offset or a factor is said to explain the residuals. A convention.

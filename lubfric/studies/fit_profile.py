@@ -29,11 +29,13 @@ INTERPOLATED = 0.25
 # costs no curve.
 BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
 
-# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little. A choice.
+# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little. A choice: a
+# bisection has (.5, .5).
 WITHIN_CURVES = (0.3, 0.7)
 
 
-# Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum. A choice.
+# Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum. A choice:
+# any number above rounding does.
 SMALLEST_STEP = 1e-9
 
 

@@ -28,7 +28,8 @@ LEVEL = 0.95
 # Name of a fitted curve without a band.
 NO_BAND = "fit, which does not describe the data: no interval is valid"
 
-# Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it. A choice.
+# Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it. A choice: above
+# `LAST_MOVE`, where a search ends.
 AT_BOUND = 5e-3
 
 # Move of the parameters by another sample of the surface, over half of their interval, up to which it is not reported. A

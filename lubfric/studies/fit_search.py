@@ -28,13 +28,16 @@ REFINEMENTS_PER_PARAMETER = 3
 # Measured so.
 USUAL_REFINEMENTS = 1
 
-# Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice.
+# Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice: fewer may miss a
+# minimum.
 SURROGATE_STARTS = 16
 
-# Distance of two positions, as a share of the bounds, below which they are one minimum. A choice.
+# Distance of two positions, as a share of the bounds, below which they are one minimum. A choice: less reports a flat
+# minimum twice, more misses near ones.
 SAME_MINIMUM = 0.1
 
-# Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation. A choice.
+# Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation. A choice:
+# less takes curves that tell nothing new.
 KNOWN_DISTANCE = 0.01
 
 # Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher
@@ -46,7 +49,8 @@ LEAST_BARRIER = 1.02
 # `PARAMETER_STEP`.
 INSIDE = 0.02
 
-# Root mean square residual over the least one up to which another minimum is reported. A choice.
+# Root mean square residual over the least one up to which another minimum is reported. A choice: more reports minima
+# that the data exclude.
 COMPARABLE = 1.5
 
 

@@ -43,7 +43,8 @@ FILM_POWER = 0.8
 NEAR_CONTACT = 1.003
 BEYOND = 1.03
 
-# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated. A choice.
+# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated. A choice:
+# less narrows an error that is not measured.
 EXTRAPOLATED_ERROR = 0.05
 
 # Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
@@ -76,13 +77,15 @@ BELOW_SEPARATED = 1e-12
 # that is large.
 LITTLE = 0.02
 
-# Asperity load ratio below which chance rules: how a contact ends is not read off such a point. A choice.
+# Asperity load ratio below which chance rules: how a contact ends is not read off such a point. A choice: less follows
+# chance, more leaves fewer points.
 LEAST_LOAD_RATIO = 2e-3
 
 # Smallest divisor of an error relative to f. A choice, near the smallest number.
 LEAST_POSITIVE = 1e-300
 
-# Film load ratio below which the film counts as carrying nothing. A choice.
+# Film load ratio below which the film counts as carrying nothing. A choice: any number between rounding and a share
+# does.
 NO_FILM_LOAD = 1e-9
 
 

@@ -17,7 +17,8 @@ from .interpolate import Interpolant
 # Speeds of a curve to which a law is fitted, in addition to those that were solved.
 FITTED_SPEEDS = 50
 
-# Relative error of a curve between its points, as it estimates it, up to which it is used. A choice.
+# Relative error of a curve between its points, as it estimates it, up to which it is used. A choice: less leaves fewer
+# points to the law.
 USABLE_ERROR = 0.02
 
 # Fewest points of a law. A choice: more than the law has parameters.
@@ -28,10 +29,11 @@ MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 # Relative distance by which a number may lie outside a range. A choice, above rounding.
 ROUNDED = 1e-9
 
-# Largest friction of asperity contacts that carry the whole load, over f_b. A choice.
+# Largest friction of asperity contacts that carry the whole load, over f_b. A choice: more lets the law rise above its
+# points.
 OVER_REST = 1.1
 
-# Speed over the slowest one below which f falls to 0 at rest. A choice.
+# Speed over the slowest one below which f falls to 0 at rest. A choice: it is below all points.
 REST_SPEED_RATIO = 0.03
 
 # Walther's equation (ASTM D341), of the viscosity in mPa s.

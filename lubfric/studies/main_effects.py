@@ -19,10 +19,11 @@ POINTS_FOR_EACH = 6
 MOST_CORRELATED = 0.3
 
 # Points at each value of an input, on average, from which these are groups; else a parabola is laid through all points.
-# A choice.
+# A choice: one each has no scatter in a group.
 POINTS_IN_GROUP = 2
 
-# Ratio of the largest to the smallest value from which a number counts by its logarithm. A choice.
+# Ratio of the largest to the smallest value from which a number counts by its logarithm. A choice: it changes the
+# parabola, which is an estimate.
 WIDE = 3.0
 
 

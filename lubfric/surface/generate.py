@@ -17,7 +17,10 @@ from .statistics import INVERSE_E, check_slopes, check_spacing, correlation_leng
 
 ACFS = ("exponential", "gaussian")
 LEAST_CELLS_OF_LENGTH = 2.0  # cells in one correlation length (1/e); a choice: fewer do not show the correlation
-LENGTH_TOLERANCE = 0.10  # of the correlation length that the finite, zero-mean map can have; a choice
+
+# Of the correlation length that the finite, zero-mean map can have; a choice: less refuses small maps.
+LENGTH_TOLERANCE = 0.10
+
 LARGEST_SEED = 2**128 - 1  # as many bits as the pool of numpy.random.SeedSequence; its definition
 NEGLIGIBLE_EXPONENT = 37.0  # exp(-37) is below the rounding of double precision, by definition
 SPECTRUM_ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero; chosen by it

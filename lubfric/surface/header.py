@@ -23,7 +23,9 @@ UNIT_WORDS |= {"nanometers": "nm", "metre": "m", "meter": "m", "meters": "m", "c
 # m of a unit: by definition (SI; the inch since 1959).
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254}
 
-LONGEST_STATEMENT = 400  # characters of a line that is read as statements; a longer one is a title: a choice
+# Characters of a line that is read as statements; a longer one is a title. A choice: more reads titles as statements.
+LONGEST_STATEMENT = 400
+
 # Relative difference up to which two statements of one length agree. A choice: they are printed to few digits.
 SAME_LENGTH = 0.01
 

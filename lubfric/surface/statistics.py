@@ -17,11 +17,11 @@ from ..errors import InputError
 Surface = Any  # `lubfric.Surface`, which is built of these functions
 
 INVERSE_E = math.exp(-1)  # decay level of a correlation length, by definition of it (ISO 25178-2 has 0.2)
-SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit; a choice
-SMALLEST_SQ = 1e-11  # m: of a rough map; a tenth of an atom. Superpolished mirrors have 5e-11 m; a choice
-SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map; a tenth of an atom; a choice
-LONGEST_SPACING = 1e-2  # m; of such a map: a choice
-IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit; a choice
+SMOOTHEST = 1e-7  # least rms slope of an instrument's map: a choice, for less is a slip of units
+SMALLEST_SQ = 1e-11  # m: of a rough map: a choice, a tenth of an atom. Superpolished mirrors have 5e-11 m
+SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map: a choice, a tenth of an atom
+LONGEST_SPACING = 1e-2  # m: of such a map: a choice, for more is a slip of units
+IMPOSSIBLE_SLOPE = 3.0  # largest rms slope of a map: a choice, for more is a slip of units
 # Heights of a Gaussian surface over its Sq. Ra: exactly. Rz: an estimate, for a profile of L correlation lengths has
 # 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF). The 5 of
 # Rz is a choice between these.

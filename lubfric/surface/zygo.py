@@ -14,7 +14,7 @@ from .header import LENGTH_UNITS
 POINTS_TITLE = "Zygo XYZ Data File"
 PHASES_TITLE = "Zygo ASCII Data File"
 
-# Lines of the header, at most: programs write 13 or 14. A choice.
+# Lines of the header, at most: programs write 13 or 14. A choice: more searches files that are no maps.
 LONGEST_HEADER = 40
 
 # Lines of the header (from 0) with the size of the intensities, the size of the map, the optics, and the phase

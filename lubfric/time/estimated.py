@@ -36,7 +36,8 @@ CHANGE_OF_RADIUS = 3.0
 # Part of the largest speed below which the acceleration of a reversal is looked up. A choice, for an estimate.
 SLOW = 0.1
 
-# Part of the largest speed that counts as the smallest: a film at rest changes by squeeze alone. A choice.
+# Part of the largest speed that counts as the smallest: a film at rest changes by squeeze alone. A choice: it moves
+# estimates alone.
 SMALLEST_SPEED = 1e-3
 
 # Speeds between that and the largest one at which the film is estimated. A choice: more takes longer, less errs more

@@ -25,9 +25,9 @@ TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unles
 LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 # Mass missing in a control volume over the flow that the motion drags through it [-] above which Newton's method takes
 # one more step: some hundred volumes then miss less than the limit of the balance of a run
-# (`lubfric.time.result.MASS`). A choice.
+# (`lubfric.time.result.MASS`). A choice: less takes more steps.
 MISSING_FLOW = 1e-6
-SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load: a choice
+SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load: a choice: less takes longer before it fails
 
 
 @dataclass(frozen=True, kw_only=True)

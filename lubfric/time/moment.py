@@ -44,18 +44,22 @@ from .march import Progress, Step
 from .moment_columns import ends_of_film, motion_columns, sense_of, sense_of_friction
 from .scene_in_time import scene_at, sliding_at
 
-NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest; a choice
+# Of central film x largest speed: less flow than this is a film at rest; a choice: less states the film of a reversal
+# by its flow, which is near 0.
+NO_FLOW = 1e-2
+
 STEADY_ONLY = (
     "a run in time has no other deflection; compare it with the steady f, which has numerics.film_deflection = 'scaled'"
 )
-# Entrainment speed [m/s] of a film at rest, which was drawn in slowly. A choice.
+# Entrainment speed [m/s] of a film at rest, which was drawn in slowly. A choice: slower films are as thin as molecules.
 STANDSTILL_SPEED = 1e-6
 
 # Step of ln F_H [-] for the slope of the film over its load. A choice: the slope changes slowly.
 LOG_LOAD_STEP = 0.05
 
 
-# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then. A choice.
+# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then. A choice:
+# less states relative errors of numbers near 0.
 SMALL_FRICTION = 0.01
 
 # Cells beyond the last node with pressure to which the rupture of the film is extrapolated, at most. A choice, against

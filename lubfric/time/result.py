@@ -32,13 +32,14 @@ if TYPE_CHECKING:
 
 MANY_BLOCKS = 30  # blocks less one: of a strip; a choice: Student's t is 2.04 for 1.96
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
-TINY = 1e-30  # no f is divided by less; a choice
+TINY = 1e-30  # no f is divided by less; a choice: any number below all f does
 # Parts of the uncertainty budget (`lubfric.estimate.PARTS`) that a run in time does not have: the effect of an input
 # that the scene does not give is not computed.
 PARTS_NOT_IN_TIME = ("not given",)
 POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
 
-# Difference of speeds and load, over the largest, below which two moments have the same conditions. A choice.
+# Difference of speeds and load, over the largest, below which two moments have the same conditions. A choice: less
+# misses rounded periods.
 SAME_CONDITIONS = 1e-3
 
 # Difference of the asperity load ratio, and relative one of the film, from which two moments differ. A choice: what a
@@ -46,7 +47,7 @@ SAME_CONDITIONS = 1e-3
 OTHER_RATIO = 0.02
 OTHER_FILM = 0.05
 
-MASS = 1e-3  # largest residual of a step's mass; a choice
+MASS = 1e-3  # largest residual of a step's mass; a choice: less refuses runs, more leaves an error of the film
 
 
 @dataclass(frozen=True, kw_only=True)

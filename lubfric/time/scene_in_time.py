@@ -9,8 +9,11 @@ import numpy as np
 from ..models.shared import film_lubricant, inlet_at
 from ..scene import Constant, History, Scene, Transient
 
-MOST_SLIDE_ROLL_RATIO = 1e6  # [-] slide-roll ratio beyond which a moment counts as one of sliding alone; a choice
-SAMPLED_TIMES = 257  # number of times at which the histories are sampled before a run begins. A choice
+# [-] slide-roll ratio beyond which a moment counts as one of sliding alone; a choice: any number far above 2 does.
+MOST_SLIDE_ROLL_RATIO = 1e6
+
+# Number of times at which the histories are sampled before a run begins. A choice: fewer miss short events.
+SAMPLED_TIMES = 257
 
 # [-] the speed of a body is U plus this part of u2 - u1; by definition.
 SLIDING_PART = {"surface": -0.5, "counterface": 0.5}

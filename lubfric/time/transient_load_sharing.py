@@ -15,7 +15,7 @@ from .model import Output
 from .moment import load_sharing_moment
 from .scene_in_time import sampled_times, surface_speed
 
-LOOSEST = 1e-4  # [-] loosest tolerance of the volume balance; a choice
+LOOSEST = 1e-4  # [-] loosest tolerance of the volume balance; a choice: more lets the error of a step hide in it
 STANDS_STILL = "moving roughness is treated as stationary; numerics.model = 'deterministic' moves it"
 
 

@@ -49,6 +49,9 @@ MOVING = ("moving", "moving_strip", "time_and_place", "summits", "cells_in_motio
 # Modules whose numbers estimate the work of a point, and move no result: `verification.campaigns.estimates` compares them.
 ESTIMATES = ("estimated_work", "estimated", "expected_steps", "expected_friction", "counted_work")
 
+# Numbers that are names of kinds of cells, which have no half.
+KINDS = ("FLUID", "RUPTURED", "TOUCHING")
+
 # Factors on a constant.
 FACTORS = (0.5, 2.0)
 
@@ -161,7 +164,7 @@ def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tup
             if info.name.rpartition(".")[2] in ESTIMATES:
                 continue
             for name, value in numbers_of(importlib.import_module(info.name)):
-                if f"{info.name}.{name}".startswith(prefixes):
+                if f"{info.name}.{name}".startswith(prefixes) and name not in KINDS:
                     yield info.name, name, value
 
 

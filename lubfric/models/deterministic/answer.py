@@ -56,7 +56,7 @@ LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
 BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which published theories differ"
 
 # Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known
-# to 5 %. A choice.
+# to 5 %. A choice: less states what is no difference.
 WORTH_A_NOTE = 1.05
 
 # Counted work of a strip [s] above which no cells are recommended: an hour. A convention.

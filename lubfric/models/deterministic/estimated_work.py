@@ -60,7 +60,7 @@ PIECES_OF_MORE_STRIPS = 3.0
 # of these points, and all others, solve one. Measured there.
 PIECES_OF_RUBBED = 0.25
 
-# Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice.
+# Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice: it moves estimates alone.
 RUBBED_FILM = 0.25
 
 # The same of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it (.05,

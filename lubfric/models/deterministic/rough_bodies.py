@@ -13,7 +13,7 @@ from .summits import SummitControl, control_of
 # choice: more costs time, less leaves more scatter.
 CONTROL_STRIPS = 48
 
-# Cells of all these strips together, at most: about a second of processor time. A choice.
+# Cells of all these strips together, at most: about a second of processor time. A choice: less leaves more scatter.
 CONTROL_CELLS = 4_000_000
 
 

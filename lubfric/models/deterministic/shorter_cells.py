@@ -72,7 +72,7 @@ LENGTH_OF_LAST_PIECE = 14.0
 ERROR_OF_SHORT_PIECE = 0.5
 
 # Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error. A
-# choice.
+# choice: less takes more pieces.
 FIXED_FILM_RATIO = 2.0
 
 # Relative change of f by twice the boundary film [-] above which pieces are solved at the speed of the point itself: a

@@ -54,10 +54,10 @@ LEAST_SPEED_STEP = 0.05
 FILM_ADVICE = "longer cells may lead there, or a higher speed"
 
 # Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the campaign needs
-# it; an oil has .05 to .1. A choice.
+# it; an oil has .05 to .1. A choice: a film of it converges more easily.
 THIN_STRESS = 0.09
 
-# Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it. A choice.
+# Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it. A choice: as `THIN_STRESS`.
 THIN_OFFSET = 2e6
 
 # Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice change the work by

@@ -16,12 +16,12 @@ from ..shared import SHARED_LENGTH, StandardError
 from .summits import SummitControl
 
 # Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
-# exp(-(s/1.5 b)²) (needle roller, lambda ratio 0.5), with s the way travelled. Measured there; 3.0 is twice that
-# length, by choice.
+# exp(-(s/1.5 b)²) (needle roller, lambda ratio 0.5), with s the way travelled. A choice: twice that measured length;
+# shorter blocks depend on one another.
 TIME_BLOCK = 3.0
 
-# Half-widths: the correlation length 1.5 b of friction over time, without what the control explains. It follows from
-# 1.5 √(3/4), of what the control leaves: a choice.
+# Half-widths: the correlation length 1.5 b of friction over time, without what the control explains. A choice, a little
+# less than that.
 TIME_LENGTH = 1.3
 
 # Correlation lengths along y in a block, at least. A choice: shorter blocks depend on one another, longer ones are too

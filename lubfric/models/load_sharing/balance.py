@@ -39,7 +39,8 @@ MOST_NEWTON_ITERATIONS = 30
 # Longest step of Newton's method in ln(F_H/F_C). A choice: more may overshoot, less takes more steps.
 LONGEST_NEWTON_STEP = 1.0
 
-# Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only. A choice.
+# Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only. A choice: less takes more steps here, more
+# takes more of the balance.
 LAST_NEWTON_STEP = 1e-3
 
 # Part of the load on the film, at most, at which the root is looked for without a start. Not measured: a start only.

@@ -63,7 +63,7 @@ CLEAR_OF_SUMMITS = 10.0
 NEAR_LOAD = 0.25
 
 # Slide-roll ratio of the reference point [-], whatever that of the point is. Film and contact depend on it little. A
-# choice.
+# choice: one for all, so that contacts of all ratios share its points.
 REFERENCE_RATIO = 0.1
 
 # Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells

@@ -79,10 +79,10 @@ ROUGH_TIMES_ON_LONG_CELLS = 6.0
 # Measured so.
 REFINED = 1.3
 
-# Cells in a correlation length along x below which cells are long. A choice.
+# Cells in a correlation length along x below which cells are long. A choice: it moves estimates alone.
 FEW_CELLS_OF_LENGTH = 12.0
 
-# Part of the gap that the film of the whole load fills, between which that happens. A choice.
+# Part of the gap that the film of the whole load fills, between which that happens. A choice: it moves estimates alone.
 SHARED = (0.08, 0.6)
 
 # Scatter of f over that by the closed form, where asperities carry a part of the load. Fitted to flooded contacts
@@ -110,7 +110,8 @@ CLEAR_OF_ASPERITIES = 5.5
 # around the 4.5 of `HIGHEST_SUMMITS`.
 LAST_SUMMITS = (4.0, 5.5)
 
-# Factor between the expected film and any film: outside of it contact or separation is certain. A choice.
+# Factor between the expected film and any film: outside of it contact or separation is certain. A choice: it moves
+# estimates alone.
 CERTAIN_FACTOR = 2.0
 
 

@@ -22,7 +22,7 @@ from ..shared import StandardError, block_error, means_of_blocks
 from .balance import Balance
 from .response import MomentResponse
 
-# Windows of a measured map whose scatter states an error. A choice.
+# Windows of a measured map whose scatter states an error. A choice: two degrees of freedom.
 FEWEST_WINDOWS = 3
 
 # Correlation lengths along y in a block that counts as one asperity contact. Half and twice as many change the width

@@ -28,7 +28,7 @@ BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibra
 WIDENED = "read f with its interval, which is wider for that"
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width. A
-# choice.
+# choice: less reports more.
 NEGLIGIBLE_DISTANCE = 0.01
 
 # Factor on the bounds far outside the range of the campaign. A choice: nothing was measured there.

@@ -72,40 +72,43 @@ LOOSER_EFFORT = replace(TIGHT, residual=1e-3, carries_imbalance=True, linear=0.1
 LONG_CELLS_OF_HALF_WIDTH = 2.0
 
 # ln of f on cells twice as long, at most, that a feature takes as it is: beyond it, and where they have no solution,
-# the change says only that it is large. A choice.
+# the change says only that it is large. A choice: more lets single cases decide the fit.
 MOST_BY_CELLS = 0.5
 
 # Change of ln f on cells twice as long, at least, that a feature takes as it is: below, the solver's tolerance is as
-# large. A choice.
+# large. A choice: less lets the solver's error decide the fit.
 LEAST_BY_CELLS = 0.01
 
 # Change of ln f on cells twice as long at which the feature is 0. A convention.
 MIDDLE_BY_CELLS = 0.05
 
-# Relative length by which a cell may be longer than allowed: that of rounding. A choice.
+# Relative length by which a cell may be longer than allowed: that of rounding. A choice: any number between rounding
+# and a cell does.
 ROUNDING = 1e-9
 
 # Sliding part of f, at least, over which a change of f is taken. A choice, against a division by 0.
 LEAST_SLIDING = 1e-9
 
-# Change of f by the boundary film, from half to twice its thickness, that counts at most. A choice.
+# Change of f by the boundary film, from half to twice its thickness, that counts at most. A choice: more lets single
+# cases decide the fit.
 MOST_BY_FILM = 4.0
 
 # Change below which the cells of the boundary film are few and show little. Chosen with the features, by the likelihood.
 LITTLE_BY_FILM = 0.1
 
-# Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it. A choice.
+# Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it. A choice: less
+# lets the solver's error decide the fit.
 LEAST_BELOW = 0.02
 
 # Distance of the sliding part of f from f_b, over f_b, from which on it says nothing more in rolling. Chosen with the
 # features, by the likelihood.
 NEAR_FRICTION = 0.3
 
-# What is added to it, so that its ln is finite. A choice.
+# What is added to it, so that its ln is finite. A choice: less lets the solver's error decide the fit.
 LEAST_NEAR = 0.01
 
 # Part of f by the gradient of the pressure over the sliding part that counts at most: f may be a small difference. A
-# choice.
+# choice: more lets single cases decide the fit.
 MOST_ROLLING = 20.0
 
 # Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by the

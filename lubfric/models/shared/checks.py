@@ -45,7 +45,8 @@ ROELANDS_LIMIT = 1e9
 # decides a warning, no number.
 BARUS_LIMIT = 3e8
 
-# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice.
+# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice:
+# less warns of more films.
 THICK_FILM = 0.1
 
 # Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning, no

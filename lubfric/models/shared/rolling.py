@@ -27,7 +27,7 @@ LEAST_OF_RESISTANCE = 0.02
 MOST_OF_RESISTANCE = 0.15
 
 # Share of the load on the film, at least, at which its resistance is solved: below it, the resistance is too small to
-# matter beside friction. A choice.
+# matter beside friction. A choice: less meets films that do not converge.
 LEAST_FILM_SHARE = 1e-3
 
 # Relative tolerance of the film. A choice, far below the error of this resistance.

@@ -49,7 +49,8 @@ SAMPLE_GROWTH = 4.0, 8.0
 # Confidence of the intervals. A convention (GUM, as in docs/uncertainty.md).
 CONFIDENCE = 0.95
 
-# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96. A choice.
+# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96. A choice: less
+# widens intervals, by 4 % here.
 FREEDOM_NOT_COUNTED = 30
 
 # Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N

@@ -50,14 +50,14 @@ DEEP = 5.0
 LEAST_SCALED_SHARE = 1e-6
 
 # Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has fallen to 4 % of
-# its largest there. A choice.
+# its largest there. A choice: less cuts the film off.
 UPSTREAM = 4.0
 
 # Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder. It
 # follows from Reynolds' equation (Swift-Stieber).
 REYNOLDS_RUPTURE = 0.475
 
-# Part of f by asperities below which the film makes it. A choice.
+# Part of f by asperities below which the film makes it. A choice: it selects a sentence.
 LEAST_ASPERITY_PART = 0.1
 
 
