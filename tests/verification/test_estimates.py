@@ -158,3 +158,8 @@ def test_strips_on_long_cells_are_as_many_as_their_scatter_needs():
         with limited_work(math.inf) as meter:
             job.run()
         assert meter.spent / 2 <= job.estimate() <= 2 * meter.spent
+
+
+def test_the_quick_model_on_a_patch_has_an_estimate():
+    """The patch has no sampling error, and its strip is all there is: the time is positive and finite."""
+    assert 0 < of_scene(PATCH.with_(numerics={"model": "quick", "sampling": "patch"}), [0.03]) < math.inf

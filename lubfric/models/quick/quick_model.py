@@ -221,6 +221,8 @@ def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float
 def _expected_strips(sample: Sample, alone: WorkEstimate) -> float:
     """Return the expected number of strips at rest on long cells, by the sampling error of the joined strips of ``sample`` by load
     sharing ``alone``."""
+    if not sample.represents_more:
+        return 1.0  # all there is
     of_one = alone.expected_sampling_error * math.sqrt(sample.first_strips)
     return float(min(max((of_one / EXPECTED_TARGET) ** 2, USUAL_STRIPS), MOST_STRIPS))
 
