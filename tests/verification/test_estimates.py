@@ -163,3 +163,12 @@ def test_strips_on_long_cells_are_as_many_as_their_scatter_needs():
 def test_the_quick_model_on_a_patch_has_an_estimate():
     """The patch has no sampling error, and its strip is all there is: the time is positive and finite."""
     assert 0 < of_scene(PATCH.with_(numerics={"model": "quick", "sampling": "patch"}), [0.03]) < math.inf
+
+
+@pytest.mark.slow
+def test_an_exponential_surface_under_a_wide_contact_is_estimated_within_three():
+    """Bodies that flatten by 13 Sq: the dry contacts take some twice as many iterations, on ever shorter cells."""
+    job = drawn(1490, 0)
+    with limited_work(math.inf) as meter:
+        job.run()
+    assert meter.spent / 3 <= job.estimate() <= 3 * meter.spent
