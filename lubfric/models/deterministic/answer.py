@@ -45,7 +45,7 @@ from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
-from .problem import BOUNDARY_FILM
+from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip
 from .strip import StripSolution, change_by_flow, solve_strip
@@ -65,6 +65,11 @@ FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
     "cells; a larger numerics.max_work reduces it"
+)
+SMALLER_PATCH = "a smaller patch (contact.shape)"
+TOO_MANY_CELLS = (
+    f"shorter cells of this patch are more than {MOST_GRID_CELLS:.3g}, the most that are solved: the numerical error is twice the "
+    f"estimate from longer cells; {SMALLER_PATCH} reduces it"
 )
 ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; between these it scatters"
 MIRRORED = ", mirrored along the line"
@@ -153,10 +158,11 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *_sample_notes(prepared, sampling_error, levels.length),
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
+            *([TOO_MANY_CELLS] if levels.has_too_many_cells else []),
         ),
         violations=tuple(_violations(prepared, numbers, results, heat)),
-        recommendation=_recommendation(prepared, levels.pairs[0]),
-        narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
+        recommendation=_recommendation(prepared, levels),
+        narrows_numerical=_narrows_numerical(prepared, levels),
         fields=fields_of(levels.finest, sample.in_words(1) + (MIRRORED if levels.pairs[0].is_mirrored else "")),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
@@ -301,12 +307,14 @@ def _share_given_off(results: Sequence[DeterministicResult]) -> float:
     return mean(result.share_given_off for result in results)
 
 
-def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
+def _recommendation(prepared: Prepared, levels: Levels) -> str:
     """Return what makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
-        return f"{shorter_cells_in_motion(prepared, pair)}, or {LARGER_TOLERANCE}"
+        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])}, or {LARGER_TOLERANCE}"
+    if levels.has_too_many_cells:
+        return f"{LARGER_TOLERANCE}, or {SMALLER_PATCH}"
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given_or_measured:
@@ -333,10 +341,11 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
 
 
-def _narrows_numerical(prepared: Prepared, pair: StripOnTwoGrids) -> str:
-    """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
-    is_moving = has_moving_roughness(prepared.scene)
-    return f"{shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} reduces it"
+def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
+    """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no tolerance does."""
+    if has_moving_roughness(prepared.scene):
+        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} reduces it"
+    return f"{SMALLER_PATCH if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE} reduces it"
 
 
 def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:

@@ -132,6 +132,7 @@ class Levels:
     numerical : relative error of f, by the cells of the last level
     length : of all strips [m]
     has_unsolved_cells : whether shorter cells were needed and did not converge
+    has_too_many_cells : whether they were needed and are too many
     note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
     """
 
@@ -150,6 +151,7 @@ class Levels:
     numerical: float
     length: float
     has_unsolved_cells: bool = False
+    has_too_many_cells: bool = False
     note: str = ""
 
 
@@ -303,6 +305,7 @@ def levels_of(
         pairs=tuple(pairs),
         pieces=shorter.pieces,
         has_unsolved_cells=shorter.has_unsolved,
+        has_too_many_cells=shorter.has_too_many,
         shortest=shorter.shortest,
         finest=shorter.strip or first,
         sampling_error=sampling_error,

@@ -196,16 +196,7 @@ def lay_out(
         raise InputError(
             f"map_coarsening = {map_coarsening} does not divide the {ny} cells of the map along y; allowed: its divisors"
         )
-    upstream, downstream = reach(line, surface.sq) if ends is None else ends
-    begins = line.lubricant.inlet_length
-    if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
-        upstream = begins - 1.5 * dx + 1e-9 * dx
-    # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
-    middle = (nx - 1) / 2
-    taken = fx // 2
-    first = math.floor((middle - taken) / fx - upstream / dx)
-    last = math.ceil((middle - taken) / fx + downstream / dx)
-    index = taken + fx * np.arange(first, last + 1)
+    index = _columns_taken(surface, line, fx, ends)
     if index.size * (ny // fy) > MOST_GRID_CELLS:
         raise InputError(
             f"contact: a deterministic film needs {index.size} x {ny // fy} cells of {dx:.3g} x {dy:.3g} m here; "
@@ -223,7 +214,7 @@ def lay_out(
         lambda: half_space(shape, spacing, line.e_prime, BOUNDARY),
         lambda operator: operator.symbol.size,
     )
-    x = (index - middle) * surface.spacing[0]
+    x = (index - (nx - 1) / 2) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
     return Problem(
         line=line,
@@ -236,6 +227,30 @@ def lay_out(
         boundary_film=boundary_film,
         memo=memo,
     )
+
+
+def _columns_taken(
+    surface: Surface, line: LineContact, coarsening: int, ends: tuple[float, float] | None = None
+) -> np.ndarray:
+    """Return the numbers of the columns of ``surface``, continued, that a grid takes on cells ``coarsening`` times as long along
+    x; ``ends``: as of `lay_out`."""
+    dx = surface.spacing[0] * coarsening
+    upstream, downstream = reach(line, surface.sq) if ends is None else ends
+    begins = line.lubricant.inlet_length
+    if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
+        upstream = begins - 1.5 * dx + 1e-9 * dx
+    # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
+    middle = (surface.shape[0] - 1) / 2
+    taken = coarsening // 2
+    first = math.floor((middle - taken) / coarsening - upstream / dx)
+    last = math.ceil((middle - taken) / coarsening + downstream / dx)
+    return taken + coarsening * np.arange(first, last + 1)
+
+
+def has_too_many_cells(surface: Surface, line: LineContact, map_coarsening: tuple[int, int]) -> bool:
+    """Return whether `lay_out` refuses ``surface`` on these cells, because there are more of them than `MOST_GRID_CELLS`."""
+    (fx, fy) = map_coarsening
+    return _columns_taken(surface, line, fx).size * (surface.shape[1] // fy) > MOST_GRID_CELLS
 
 
 def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:

@@ -29,7 +29,7 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips
 from .counted_work import MOST_WORK_OF_POINT
-from .problem import are_soft
+from .problem import are_soft, has_too_many_cells
 from .rough_bodies import map_of_contact
 from .strip import UNKNOWN_SLOPE, StripSolution, changes_of, error_by_cells, solve_strip
 from .strip_on_two_grids import (
@@ -132,6 +132,7 @@ class ShorterCells:
     change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
+    has_too_many : whether shorter cells of a patch were needed, and are more than `MOST_GRID_CELLS`
     """
 
     pieces: tuple[Piece, ...] = ()
@@ -141,6 +142,7 @@ class ShorterCells:
     change: float = 0.0
     error: float
     has_unsolved: bool = False
+    has_too_many: bool = False
 
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
@@ -155,8 +157,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
       heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED_FACTOR` times the estimate.
     - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_OF_POINT`
       allows it. What it estimates from one short piece may be off by half.
-    - A single patch has one piece: all of it, on shorter and shorter cells. Raises `ConvergenceError` if that does not
-      converge.
+    - A single patch has one piece: all of it, on shorter and shorter cells (`_patch_on_shorter_cells`).
     """
     scene = prepared.scene
     sample = prepared.sample
@@ -171,16 +172,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
     if sample.refines_in_place:
-        refined_strips = _refined(prepared, speed, 0, first=pairs[0], find_slope=True)
-        return ShorterCells(
-            pieces=(refined_strips,),
-            strip=refined_strips.on_shortest_cells,
-            error=max(
-                error_by_cells(changes_of(refined_strips)),
-                LEAST_STRIP_ERROR,
-                error_of_soft_bodies(refined_strips.on_shortest_cells),
-            ),
-        )
+        return _patch_on_shorter_cells(prepared, speed, pairs[0], error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
             pieces, scatter = _third_level(prepared, speed, pairs)
@@ -207,6 +199,35 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         max(error_by_cells((change, further), max(halvings - 2, 1)), ERROR_OF_SHORT_PIECE * further, floor), of_mean
     )
     return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
+
+
+def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids, error: float) -> ShorterCells:
+    """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative ``error``.
+
+    Where shorter ones are needed, and do not converge or are too many, the error is `UNSOLVED_FACTOR` times the estimate.
+    """
+    try:
+        with limited_work(PIECES_SHARE * work_left()):
+            patch = _refined(prepared, speed, 0, first=pair, find_slope=True)
+    except ConvergenceError:
+        return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
+    shortest = patch.on_shortest_cells
+    (surface, _) = surface_and_map_coarsening(prepared, 0)
+    by_cells = error_by_cells(changes_of(patch))
+    error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(shortest))
+    has_too_many = by_cells > _enough(prepared) and shortest.problem.spacing != surface.spacing
+    if has_too_many:
+        error *= UNSOLVED_FACTOR
+    if shortest is patch.on_cells_of_strips:
+        return ShorterCells(error=error, has_too_many=has_too_many)
+    return ShorterCells(pieces=(patch,), strip=shortest, error=error, has_too_many=has_too_many)
+
+
+def _enough(prepared: Prepared) -> float:
+    """Return the relative error of f by the cells up to which those of a piece are not shortened further: 0 but for a patch that
+    may end before its native cells."""
+    numerics = prepared.scene.numerics
+    return numerics.tolerance if prepared.sample.refines_in_place and numerics.grid != "given" else 0.0
 
 
 def error_of_soft_bodies(strip: StripSolution) -> float:
@@ -345,7 +366,7 @@ def _refined(
     and then on cells half as long each time, down to so many ``times`` as short as those of the strips.
 
     A piece of a patch is all of it: its cells are shortened until the estimated error is within ``numerics.tolerance``,
-    with ``numerics.grid = "given"`` down to the map's own.
+    with ``numerics.grid = "given"`` down to the map's own, or until there would be too many.
 
     Parameters
     ----------
@@ -357,7 +378,7 @@ def _refined(
     scene = prepared.scene
     sample = prepared.sample
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
-    enough = scene.numerics.tolerance if sample.refines_in_place and scene.numerics.grid != "given" else 0.0
+    enough = _enough(prepared)
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:
@@ -373,6 +394,8 @@ def _refined(
         ladder = [strip if longer is None else longer, strip]
     while map_coarsening != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
         map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
+        if sample.refines_in_place and has_too_many_cells(surface, ladder[-1].problem.line, map_coarsening):
+            break
         ladder.append(
             solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
         )
