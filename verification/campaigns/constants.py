@@ -46,8 +46,11 @@ DETERMINISTIC = "lubfric.models.deterministic"
 # Modules of `DETERMINISTIC` that a point at rest does not reach.
 MOVING = ("moving", "moving_strip", "time_and_place", "summits", "cells_in_motion", "rough_bodies")
 
-# Modules whose numbers estimate the work of a point, and move no result: `verification.campaigns.estimates` compares them.
-ESTIMATES = ("estimated_work", "estimated", "expected_steps", "expected_friction", "counted_work")
+# Modules whose numbers move no f: they estimate work, which `verification.campaigns.estimates` compares, or warn.
+OTHERS = (
+    *("estimated_work", "estimated", "expected_steps", "expected_friction", "counted_work"),
+    *("checks", "checks_before", "violation", "wording"),
+)
 
 # Numbers that are names of kinds of cells, which have no half.
 KINDS = ("FLUID", "RUPTURED", "TOUCHING")
@@ -161,7 +164,7 @@ def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tup
     for room in ROOMS:
         package = importlib.import_module(room)
         for info in pkgutil.iter_modules(package.__path__, f"{room}."):
-            if info.name.rpartition(".")[2] in ESTIMATES:
+            if info.name.rpartition(".")[2] in OTHERS:
                 continue
             for name, value in numbers_of(importlib.import_module(info.name)):
                 if f"{info.name}.{name}".startswith(prefixes) and name not in KINDS:

@@ -28,7 +28,7 @@ from ...oil import Lubricant
 from ...surface import Surface
 from ..shared import Memo, OperatorKey
 
-FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice, whose half changes f by some 1 % (`ERROR_BY_GAP`)
+FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice (`ERROR_BY_GAP` has what half of it changes)
 BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
 
 # The effects of half and twice the lengths of the grid are those on three points of the scene "paper" (`python -m
