@@ -88,7 +88,7 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
 def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_contact: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.stated_map()
-    check_map(scene, surface)
+    check_map(scene, surface, sample.maps_before_extension[0])
     memo = Memo()
     (rough_contact, contact_work) = work_apart_from_limit(
         lambda: sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))

@@ -131,7 +131,7 @@ def described_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> tuple[s
             check_run(scene)
         sample = sample_of(scene)
         surface = sample.stated_map()
-        check_map(scene, surface)
+        check_map(scene, surface, sample.maps_before_extension[0])
     estimate = estimate_scene(scene, sample, surface, speeds)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (

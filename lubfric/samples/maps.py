@@ -31,13 +31,14 @@ def contact_maps(
     axes, and mirrors it. The notes of the surface state everything that was done. ``read``: what `whole_maps`
     returned, if that was called before.
     """
-    maps = given or read or whole_maps(scene)
+    whole = given or read or whole_maps(scene)
+    maps = whole
     if not given and is_measured(scene):
-        maps = tuple(_cut_to_contact(scene, surface) for surface in maps)
+        maps = tuple(_cut_to_contact(scene, surface) for surface in whole)
     if not np.isfinite(maps[0].heights).all():
         missing = f"{100 * maps[0].missing_fraction:.3g} % of the heights are unmeasured (NaN)"
         raise InputError(f"surface: {missing}; call level() and fill() first")
-    check_map(scene, maps[0])
+    check_map(scene, maps[0], whole[0])
     return maps
 
 
@@ -144,9 +145,9 @@ def domain_over(surface: Surface, domain: ContactDomain) -> ContactDomain:
     return replace(domain, shape=(nx, ny), spacing=spacing)
 
 
-def check_map(scene: Scene, surface: Surface) -> None:
+def check_map(scene: Scene, surface: Surface, whole: Surface) -> None:
     """Raise `InputError` for slopes that no surface has, for cells too coarse for the Hertz strip, and for a patch too
-    small for it."""
+    small for it. ``surface``: what is solved of the ``whole`` map."""
     check_slopes(surface)
     if scene.contact.geometry == "flat":
         return
@@ -165,13 +166,24 @@ def check_map(scene: Scene, surface: Surface) -> None:
         (name, file) = limiting_map(scene, surface, 0)
         what = "the patch (contact.shape x contact.spacing)"
         ways = "a larger contact.shape"
-        if file:
+        if file and whole.size[0] < 2 * half_width:
+            length = whole.size[0]
             what = f"the map of the {name} ({file})"
-            ways = f"a longer map, {_ways_with_short_map(name)}"
+            ways = f"{_way_to_other_axis(scene, whole, name)}a longer map, {_ways_with_short_map(name)}"
         raise InputError(
             f"{what} is {worded(length, 'm')} long in x, the direction of motion; allowed: at least the Hertz strip, "
             f"{worded(2 * half_width, 'm')}: {ways}; {load_in_words(scene.bodies)}; {CHECK_LOAD}"
         )
+
+
+def _way_to_other_axis(scene: Scene, whole: Surface, name: str) -> str:
+    """Return that the ``whole`` map, too short along x for the Hertz strip, is long enough along its other axis, as text; "" where
+    it is not. ``name``: the section of its file."""
+    across = whole.size[1]
+    if across < 2 * scene.bodies.half_width:
+        return ""
+    other = "x" if getattr(scene, name).motion_axis == "y" else "y"
+    return f"{name}.motion_axis = {other!r} (if the motion is along {other} of the file, {worded(across, 'm')} long), "
 
 
 def load_in_words(bodies: Bodies) -> str:

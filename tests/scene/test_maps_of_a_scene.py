@@ -255,6 +255,40 @@ def test_a_form_that_is_most_of_a_map_is_a_warning(maps, curved, key, advised):
         assert violation.value == pytest.approx(100 * (1 - (without / levelled) ** 2), rel=1e-3)
 
 
+@pytest.mark.parametrize("ratio, is_warned", [(1.9, False), (2.2, True)])
+def test_a_form_that_doubles_sq_is_a_warning(maps, ratio, is_warned):
+    """A barrel along y on a map without one: Sq is the root of the sum of both squares."""
+    rough = lubfric.Surface(np.load(maps / "long.npy"), GRID).level("cylinder").heights
+    barrel = (
+        lubfric.Surface(-(np.linspace(-1, 1, rough.shape[1]) ** 2)[None, :] * np.ones(rough.shape), GRID)
+        .level()
+        .heights
+    )
+    formed = rough + math.sqrt(ratio**2 - 1) * rough.std() / barrel.std() * barrel
+    np.save(maps / "formed.npy", formed)
+    scene = loaded(maps, f"[surface]\nfile = 'formed.npy'\nspacing = {GRID}\n")
+    assert any("share of the form" in violation.what for violation in lubfric.prepare(scene).violations) == is_warned
+
+
+@pytest.mark.parametrize("axis", ["x", "y"])
+@pytest.mark.parametrize("sampling", ["strips", "patch"])
+def test_a_map_too_short_is_refused_with_the_length_of_its_file(tmp_path, axis, sampling):
+    """13 cells, of which strips take a multiple of 4; the other axis of the file is long enough, where it is."""
+    rng = np.random.default_rng(1)
+    for across, named in ((80, True), (14, False)):
+        heights = 1e-8 * rng.standard_normal((13, across))
+        np.save(tmp_path / "own.npy", heights if axis == "x" else heights.T)
+        text = f"[surface]\nfile = 'own.npy'\nspacing = {GRID}\nmotion_axis = '{axis}'\n[numerics]\nsampling = '{sampling}'\n"
+        with pytest.raises(lubfric.InputError, match="own.npy") as caught:
+            lubfric.prepare(loaded(tmp_path, text))
+        assert "is 7.8 µm long in x" in str(caught.value)
+        other = "yx"[axis == "y"]
+        found = f"surface.motion_axis = '{other}' (if the motion is along {other} of the file, 48 µm long)" in str(
+            caught.value
+        )
+        assert found == named and ("motion_axis" in str(caught.value)) == named
+
+
 def test_a_form_of_the_second_body_is_named_and_one_of_a_given_map_too(maps):
     """Also under a map that is continued by its mirror image; a new load keeps the warning."""
     heights = np.load(maps / "short.npy")

@@ -138,8 +138,9 @@ def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)
     heights = rng.standard_normal(patch["shape"]) * (1.0 if "rms slope" in words else 1e-8)
+    surface = lubfric.Surface(heights, patch["spacing"])
     with pytest.raises(lubfric.InputError) as caught:
-        check_map(PAPER, lubfric.Surface(heights, patch["spacing"]))
+        check_map(PAPER, surface, surface)
     for word in words:
         assert word in str(caught.value)
 

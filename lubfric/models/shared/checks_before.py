@@ -61,9 +61,9 @@ LEAST_PATCH_LENGTHS = 10
 # known (statistics.py).
 LEAST_LENGTHS_FOR_INTERVAL = LEAST_BLOCKS * LEAST_BLOCK_LENGTH
 
-# Share [%] of Sq² that a form explains from which the map shows the form and not the roughness. Not measured: a
-# convention.
-MOST_OF_FORM = 90.0
+# Share [%] of Sq² that a form explains from which the map shows the form and not the roughness: its Sq is then twice that of the
+# roughness. A convention.
+MOST_OF_FORM = 75.0
 
 # Deviation of the Sq of strips from that of their map, at most, that is no violation whatever the sample explains. A
 # convention.
