@@ -13,6 +13,7 @@ import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.estimate.choice import choose
 from lubfric.estimate.solve_to_tolerance import solve_to_tolerance
+from lubfric.estimate.work_of_point import estimated_work_of_point
 from lubfric.models import (
     MODELS,
     DeterministicModel,
@@ -23,7 +24,7 @@ from lubfric.models import (
     SampleSolution,
     registry,
 )
-from lubfric.models.deterministic import DeterministicSolution
+from lubfric.models.deterministic import DeterministicSolution, answer
 from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_joined_strips
 from lubfric.output import describe_scene, main, report, study_report
 from lubfric.quantities import CHOICES, COLUMNS
@@ -549,6 +550,32 @@ def test_fine_fields_are_those_of_one_solve(model):
     load = fields.pressure.sum() * fields.spacing[0] / fields.y.size * PAPER.bodies.width
     expected = result.contact_load if model == "paper" else PAPER.bodies.load
     assert load == pytest.approx(expected, rel=0.1)  # upstream of the cells the film carries a few per cent
+
+
+@pytest.mark.parametrize("model, is_solved_again", [("deterministic", False), ("quick", True)])
+def test_the_picture_of_a_patch_is_on_cells_that_show_it_and_no_finer(monkeypatch, model, is_solved_again):
+    """Cells of 1 µm, twice the native ones: 49 across the Hertz strip, where 2 µm are 25 and fewer than 40 are too few."""
+    scene = LOOSE.with_(
+        numerics={"sampling": "patch", "model": model, "tolerance": 0.01},
+        contact={"shape": (192, 64), "spacing": 0.5e-6},
+        surface={"correlation_length": 4e-6},
+        bodies={"load": 165.0},
+        lubricant={"limiting_stress_coefficient": "f_b"},
+    )
+    prepared = lubfric.prepare(scene)
+    solves = []
+    solve_strip = answer.solve_strip
+
+    def counted(*arguments, **named):
+        solves.append(named)
+        return solve_strip(*arguments, **named)
+
+    monkeypatch.setattr(answer, "solve_strip", counted)
+    fine = lubfric.friction(prepared, 0.01, fields="fine")
+    assert bool(solves) == is_solved_again
+    assert fine.fields.spacing == pytest.approx((1e-6, 1e-6)) and "the patch, on cells of 1 x 1 µm" in fine.fields.solve
+    estimate = estimated_work_of_point(scene, prepared.sample, prepared.surface, 0.01)
+    assert estimate.fine_fields_seconds > 0  # f might have been found on cells of 2 µm
 
 
 def test_fields_are_solved_again_or_not_as_requested():

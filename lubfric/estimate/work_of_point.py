@@ -77,7 +77,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         length=line.length,
         slow_strips=max((estimates[k].strips for k in with_slow_strips if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
-        fine_fields_seconds=max(estimates[k].fine_fields_seconds for k in solved),
+        fine_fields_seconds=estimates[answering].fine_fields_seconds,
         shared=tuple(part for k in solved for part in estimates[k].shared),
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
         longest_strip_seconds=max((estimates[k].longest_strip_seconds for k in with_slow_strips), default=0.0),

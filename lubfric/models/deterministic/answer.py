@@ -49,7 +49,7 @@ from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip
 from .strip import StripSolution, change_by_flow, solve_strip
-from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
+from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, patch_coarsening_to_look_at, sample_coarsening_of
 
 BY_PLACES = "the difference of the models from place to place"
 LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
@@ -103,6 +103,9 @@ MOST_GIVEN_OFF = 0.1
 # Error of f by that gap, at 95 % [-]: twice the change of some 1 % with half of it. Measured so.
 ERROR_BY_GAP = 0.02
 BY_GAP = "the assumed gap of 1 nm between touching cells"
+
+# Length of cells over another one up to which both are the same [-]. A convention, for rounding.
+EQUAL_CELLS = 1 + 1e-9
 
 # Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
 # less warns of more points.
@@ -164,7 +167,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         recommendation=_recommendation(prepared, levels),
         narrows_numerical=_narrows_numerical(prepared, levels),
         fields=fields_of(levels.finest, sample.in_words(1) + (MIRRORED if levels.pairs[0].is_mirrored else "")),
-        fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
+        fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed, levels.finest),
         details=levels.finest.result,
         at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),
         change_without_solve=partial(_change_without_solve, levels.finest, scene, speed),
@@ -198,14 +201,22 @@ def fields_of(strip: StripSolution, where: str) -> ContactFields:
     )
 
 
-def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
-    """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself."""
+def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> ContactFields:
+    """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself; of a patch, those of its
+    ``finest`` solution, or of all of it on shorter cells, from that solution on."""
     sample = prepared.sample
-    half_width = prepared.scene.bodies.half_width
-    coarsening = sample.coarsening_to_look_at(half_width)
-    length = pictured_length(prepared.scene, sample)
+    scene = prepared.scene
+    if sample.refines_in_place:
+        coarsening = patch_coarsening_to_look_at(scene, sample)
+        surface = map_of_strip(prepared, 0)
+        longest = [step * count * EQUAL_CELLS for step, count in zip(surface.spacing, coarsening)]
+        if any(step > most for step, most in zip(finest.problem.spacing, longest)):
+            finest = solve_strip(scene, surface, speed, map_coarsening=coarsening, start=finest, memo=prepared.memo)
+        return fields_of(finest, sample.piece_on_cells_in_words(finest.problem.spacing))
+    coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)
+    length = pictured_length(scene, sample)
     rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=length)
-    strip = solve_strip(prepared.scene, map_of_contact(prepared, rough_contact), speed)
+    strip = solve_strip(scene, map_of_contact(prepared, rough_contact), speed)
     return fields_of(strip, sample.piece_on_cells_in_words(rough_contact.spacing))
 
 

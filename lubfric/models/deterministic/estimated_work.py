@@ -25,7 +25,7 @@ from .linear import HIGH_PRESSURE
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
-from .strip_on_two_grids import sample_coarsening_of
+from .strip_on_two_grids import coarsening_at_rest, patch_coarsening_to_look_at, sample_coarsening_of
 
 # Newton steps on cells half as long, which begin at the solution on longer ones [-]. Measured on the points of `python
 # -m verification.campaigns.estimates`, as all numbers below that name no other source.
@@ -184,7 +184,7 @@ def estimated_work(
     return WorkEstimate(
         strips=count,
         seconds=AT_REST * work,
-        fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed),
+        fine_fields_seconds=0.0 if is_solved_finely(scene, sample) else work_of_fine_fields(scene, sample, sq, speed),
     )
 
 
@@ -357,15 +357,24 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     return cells.shorter_ones_pay(scene.numerics.model_tolerance)
 
 
+def is_solved_finely(scene: Scene, sample: Sample) -> bool:
+    """Return whether the deterministic model solves a patch on cells fine enough to look at: it needs no other fields."""
+    return sample.refines_in_place and patch_coarsening_to_look_at(scene, sample) == coarsening_at_rest(scene, sample)
+
+
 def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:
     """Return the processor time [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
-    solved from the dry contact; ``sq`` [m]: of the surface."""
-    if sample.refines_in_place:
-        return 0.0
+    solved from the dry contact, or of a patch from longer cells; ``sq`` [m]: of the surface."""
     (dx, dy) = sample.cells.native_spacing
+    around = sum(reach(scene.line_contact(abs(speed)), sq))
+    if sample.refines_in_place:
+        (fx, fy) = patch_coarsening_to_look_at(scene, sample)
+        return AT_REST * work_of_steps(
+            around / (fx * dx) * sample.strip_length / (fy * dy), _finer_steps(scene, sq, speed)
+        )
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
     length = pictured_length(scene, sample) * sample.correlation_lengths[1]
-    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * length / (fy * dy)
+    cells = around / (fx * dx) * length / (fy * dy)
     steps = expected_steps(scene, sq, speed)
     return AT_REST * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
 

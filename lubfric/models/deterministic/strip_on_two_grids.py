@@ -88,9 +88,24 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
     """Return the map of strip ``index``, and the length of the cells of the deterministic model in those of this map.
     The map of a patch at rest is all of it, on its own cells (`Sample.refinement`)."""
     sample = prepared.sample
-    (sx, sy) = sample_coarsening_of(prepared.scene, sample)
-    (rx, ry) = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
-    return map_of_strip(prepared, index), (sx * rx, sy * ry)
+    is_moving = has_moving_roughness(prepared.scene)
+    take = sample_coarsening_of if is_moving else coarsening_at_rest
+    return map_of_strip(prepared, index), take(prepared.scene, sample)
+
+
+def patch_coarsening_to_look_at(scene: Scene, sample: Sample) -> tuple[int, int]:
+    """Return the length, in native cells, of cells that show a patch at rest: those that the deterministic model solves it on
+    first, or as much shorter as the Hertz strip needs (`Cells.coarsening_to_look_at`)."""
+    solved = coarsening_at_rest(scene, sample)
+    return replace(sample.cells, coarsening=solved).coarsening_to_look_at(scene.bodies.half_width)
+
+
+def coarsening_at_rest(scene: Scene, sample: Sample) -> tuple[int, int]:
+    """Return the length of the cells of the deterministic model where roughness rests, in those of the map of a strip: of a patch,
+    in native ones (`Sample.refinement`)."""
+    (sx, sy) = sample_coarsening_of(scene, sample)
+    (rx, ry) = sample.refinement
+    return sx * rx, sy * ry
 
 
 def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, is_moving: bool = False) -> tuple[int, int]:
