@@ -29,7 +29,8 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import FilmProblem
 
-# Largest change of ln(eta) in one step [-]. A choice: more saves steps where all goes well, and may fail.
+# Largest change of ln(eta) in one step [-]. A choice: more saves steps where all goes well, and may fail. Half and
+# twice change f by less than .01 % and the work by less than 1 % (constants.csv).
 VISCOSITY_STEP = 3.0
 # Largest share of the film, or of the flux, that one step may remove [-]. A choice: more saves steps where all goes
 # well, and may fail.
