@@ -330,6 +330,18 @@ def test_the_shorter_of_two_maps_is_named(maps):
     assert "(its file is turned: x of the file)" in why_sample_too_short(turned, 5.0, prepared.sample)
 
 
+@pytest.mark.parametrize("columns, gives_interval", [(160, True), (40, False)])
+def test_to_omit_a_patch_is_advised_only_where_strips_of_its_map_give_an_interval(maps, columns, gives_interval):
+    """A map for one strip alone has no more correlation lengths than the patch; the advice, followed, gives an interval."""
+    np.save(maps / "own.npy", np.load(maps / "long.npy")[:columns])
+    scene = loaded(maps, f"[surface]\nfile = 'own.npy'\nspacing = {GRID}\n")
+    patch = lubfric.prepare(scene.with_(numerics={"sampling": "patch"}))
+    words = why_sample_too_short(patch.scene, 5.0, patch.sample)
+    assert ("omit numerics.sampling, or" in words) == gives_interval and "longer across the motion" in words
+    interval = lubfric.friction(scene, 0.01).uncertainty.interval
+    assert math.isfinite(interval[0]) == gives_interval
+
+
 @pytest.mark.parametrize(
     "rise, is_short", [(0.5, True), (2.0, False)]
 )  # of the cylinder at the ends of the map, over Sq

@@ -14,6 +14,7 @@ from ...samples import (
     Sample,
     is_measured,
     length_of_rough_contact,
+    measured_strips,
     requests_patch,
     rough_bodies,
     way_to_longer_line,
@@ -77,9 +78,10 @@ YIELDED = 4.5e9
 def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
     """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change.
 
-    To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off.
+    To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off; to omit
+    ``numerics.sampling`` only where strips give one.
     """
-    keys = ["numerics.sampling"] if requests_patch(scene) else []
+    keys = ["numerics.sampling"] if requests_patch(scene) and _strips_give_interval(scene, sample) else []
     extended = [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
     if extended and _is_long_enough(scene, sample) and sample.strips_without_extension(scene) > sample.available_strips:
         keys += extended
@@ -89,6 +91,20 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
         f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}give "
         f"{longer}"
     )
+
+
+def _strips_give_interval(scene: Scene, sample: Sample) -> bool:
+    """Return whether strips of the surface, in place of one patch, are long enough for an interval: generated ones always, and
+    windows of a measured map where the patch alone has enough of them."""
+    if not is_measured(scene):
+        return True
+    with_strips = scene.with_(**{name: {"extension": "none"} for _, name in rough_bodies(scene)})
+    try:
+        strips = measured_strips(with_strips, sample.whole_map)
+    except InputError:  # of too few rows for windows
+        return False
+    needed = LEAST_LENGTHS_FOR_INTERVAL * strips.correlation_lengths[1]
+    return strips.available_strips * strips.strip_length >= needed
 
 
 def _is_long_enough(scene: Scene, sample: Sample) -> bool:
