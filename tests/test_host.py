@@ -271,5 +271,5 @@ def test_speeds_with_a_decimal_comma_are_refused(capsys):
     from lubfric.output import main
 
     assert main(["info", "paper", "--speeds", "1,5 mm/s"]) == 2
-    assert "with a unit" in capsys.readouterr().err
+    assert "'1.5 mm/s', or for two values '1 mm/s, 5 mm/s'" in capsys.readouterr().err
     assert main(["info", "paper", "--speeds", "1 mm/s,5 mm/s"]) == 0

@@ -532,12 +532,13 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     if ":" in text:
         return _range(option, text.split(":"), unit, most, linear=False)
     words = text.split(",")
-    like_decimals = len(words) == 2 and re.fullmatch(r"\s*[+-]?0\s*,\s*\d+\s*", text) is not None  # '0,1'
-    if like_decimals or any(re.match(r"[+-]?0\d", word.strip()) for word in words):
-        likely = text.replace(" ", "").replace(",", ".") if like_decimals else "0.01"
-        raise InputError(
-            f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, {likely}"
-        )
+    decimal = re.fullmatch(r"\s*([+-]?\d+),(\d+)(\s*[^\s\d.,:][^,]*)?", text)  # '0,2 m/s'
+    if decimal is not None or any(re.match(r"[+-]?0\d", word.strip()) for word in words):
+        likely = "write a point in decimals, 0.01"
+        if decimal is not None:
+            (first, second, suffix) = ((part or "").rstrip() for part in decimal.groups())
+            likely = f"write a point in decimals, '{first}.{second}{suffix}', or for two values '{first}{suffix}, {second}{suffix}'"
+        raise InputError(f"{option} {validate.shown(text)}: a comma separates values; {likely}")
     apart = text.split()
     if len(words) == 1 and len(apart) > 1 and all(_is_number(word) for word in apart):
         raise InputError(

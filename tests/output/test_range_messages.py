@@ -51,7 +51,7 @@ def test_ratios_that_are_percentages_are_questioned(text):
 
 
 @pytest.mark.parametrize(
-    "text, ratios", [("300 %", [3.0]), ("5 %,10 %", [0.05, 0.1]), ("0.5,3", [0.5, 3.0]), ("1,2", [1, 2])]
+    "text, ratios", [("300 %", [3.0]), ("5 %,10 %", [0.05, 0.1]), ("0.5,3", [0.5, 3.0]), ("1, 2", [1, 2])]
 )
 def test_ratios_of_any_size_are_taken_with_their_unit(text, ratios):
     assert parse_ratios(text) == pytest.approx(ratios)

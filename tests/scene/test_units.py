@@ -143,11 +143,20 @@ def test_the_command_line_takes_units():
     assert parse_speeds("--speeds", "1 mm/s:1 m/s:4") == pytest.approx([0.001, 0.01, 0.1, 1.0])
     assert parse_speeds("--speeds", "1mm/s,2cm/s") == [0.001, 0.02]
     assert parse_speeds("--ratios", "1 %,10 %", "-") == [0.01, 0.1]
-    with pytest.raises(lubfric.InputError, match="a comma separates values"):
-        parse_speeds("--speeds", "0,1")
+    for text, point, two in (
+        ("0,1", "'0.1'", "'0, 1'"),
+        ("0,2 m/s", "'0.2 m/s'", "'0 m/s, 2 m/s'"),
+        ("1,5", "'1.5'", "'1, 5'"),
+        ("1,5 mm/s", "'1.5 mm/s'", "'1 mm/s, 5 mm/s'"),
+    ):
+        with pytest.raises(lubfric.InputError, match=f"a comma separates values.*{point}.*{two}"):
+            parse_speeds("--speeds", text)
+        assert len(parse_speeds("--speeds", two.strip("'"))) == 2
+    assert parse_speeds("--speeds", "1,2,3") == [1.0, 2.0, 3.0]
+    assert parse_speeds("--speeds", "1,0.5") == [1.0, 0.5]
     for option, text, unit in (
         ("--speeds", "0.001,2cm/s", "m/s"),
-        ("--ratios", "1,5 %", "-"),
+        ("--ratios", "1, 5 %", "-"),
         ("--speeds", "1:5 m/s:9", "m/s"),
     ):
         with pytest.raises(lubfric.InputError, match="without one"):
