@@ -222,6 +222,17 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
 
 
 @pytest.mark.parametrize(
+    "values, limit, worst", [((5.2, 8.69, 6.0), 5.0, 2), ((4.67, 3.38, 4.0), 5.0, 2), ((4.67, 4.0, 3.38), 5.0, 3)]
+)
+def test_a_warning_of_a_table_quotes_the_value_farthest_beyond_its_limit(values, limit, worst):
+    """Above a limit that is the largest value, below one the smallest."""
+    entries = [replace(entry(value), limit=limit, consequence=f"it takes {value} s") for value in values]
+    (text,) = gathered_texts([in_a_cell([each]) for each in entries])
+    assert f"At point {worst}: it takes {values[worst - 1]} s" in text
+    assert f"slip is {min(values)} to {max(values)} %" in text
+
+
+@pytest.mark.parametrize(
     "places, words",
     [
         ((1,), "At point 1: slip is 6 %"),

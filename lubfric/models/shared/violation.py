@@ -222,20 +222,22 @@ def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
 
 def gathered_texts(cells: Sequence[str]) -> list[str]:
     """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
-    of each point (`in_a_cell`). Points are named by their number, from 1."""
+    of each point (`in_a_cell`): the consequence is that of the value farthest beyond its limit. Points are named by their
+    number, from 1."""
     groups: dict[tuple[str, bool], dict[int, str]] = {}
     for number, cell in enumerate(cells, 1):
         for text in cell.split(TEXT_SEPARATOR) if cell else ():
             (what, _, numbers) = text.partition(" is ")
             groups.setdefault((what, ", below " in numbers.partition(". ")[0]), {})[number] = text
     lines = []
-    for group in sorted(groups.values(), key=len, reverse=True):
+    for (_, is_below), group in sorted(groups.items(), key=lambda item: len(item[1]), reverse=True):
         matches = [(match, text) for text in group.values() if (match := _VALUE_IN_TEXT.search(text))]
         values = sorted((float(match[1]), match[1], text) for match, text in matches)
         text = next(iter(group.values()))
         if len(values) == len(group):
             least = values[0][1]
-            (_, most, text) = values[-1]
+            most = values[-1][1]
+            (_, worst, text) = values[0 if is_below else -1]
         (head, _, consequence) = text.partition(". ")
         if len({each.partition(". ")[2] for each in group.values()}) > 1:
             place = next(number for number, each in group.items() if each == text)
@@ -243,7 +245,7 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
             text = f"{head}. At point {place}: {begin}{consequence[1:]}"
         if len(values) == len(group):
             if least != most:
-                text = text.replace(f" is {most}", f" is {least} to {most}", 1)
+                text = text.replace(f" is {worst}", f" is {least} to {most}", 1)
         lines.append(f"{_numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
     return lines
 
