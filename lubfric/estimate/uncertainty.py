@@ -229,10 +229,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling_in_words)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
-        """Return f with its 95 % interval, and the uncertainty budget, as text."""
-        unknown = ""
-        if not math.isfinite(self.sampling) and self.notes:
-            unknown = f"; no 95 % interval: {'; '.join(self.notes)}"
+        """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in ``notes``."""
+        unknown = "" if math.isfinite(self.sampling) else "; no 95 % interval"
         parts = self._in_words(self.budget_in_words["sampling"])
         return f"f = {with_interval(coefficient, *self.interval)}; {parts}{unknown}"
 

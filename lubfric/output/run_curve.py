@@ -449,6 +449,10 @@ def _plot(
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
 
 
+# How a note begins that says why an error is not known.
+UNKNOWN = "not known: "
+
+
 def _largest_parts(curve: studies.CurveResult) -> list[str]:
     """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the same;
     none for points where no input or tolerance reduces it."""
@@ -465,15 +469,20 @@ def _largest_parts(curve: studies.CurveResult) -> list[str]:
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
-    """Return the errors of f as text: at how many points, and in full for the least sure of them; at how many points
-    too few asperity contacts carry the load; and that results were accepted."""
+    """Return the errors of f as text: why points have no interval, in a line for all of the same reason; at how many others there are
+    notes, and those of the least sure; at how many points too few asperity contacts carry the load; and that results were
+    accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
-    noted = [point for point in points if point[1].notes]
-    lines = []
+    noted = [point for point in points if point[1].notes and math.isfinite(point[1].sampling)]
+    unknown: dict[str, list[float]] = {}
+    for value, known in points:
+        if known.notes and not math.isfinite(known.sampling):
+            unknown.setdefault("; ".join(known.notes).removeprefix(UNKNOWN), []).append(value)
+    lines = [f"no 95 % interval of f {at_values(values, unit, plural)}: {why}" for why, values in unknown.items()]
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
-        place, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
+        place, worst = max(noted, key=lambda p: p[1].sampling)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
         lines.append(f"uncertainty of f {at_value(place, unit, plural)}{more}: {'; '.join(worst.notes)}")

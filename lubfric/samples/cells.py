@@ -92,11 +92,16 @@ class Cells:
     def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
         """Return the longest coarsening, from that of these cells down to native ones, that leaves `ACROSS` cells in the
         Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
-        longest = 2 * half_width / ACROSS
+        longest = self.longest_to_look_at(half_width)
         for coarsening in self.coarsenings():
             if max(n * step for n, step in zip(coarsening, self.native_spacing)) <= longest:
                 return coarsening
         return (1, 1)
+
+    @staticmethod
+    def longest_to_look_at(half_width: float) -> float:
+        """Return the length [m] of cells of which `ACROSS` are in the Hertz strip of this ``half_width`` [m]."""
+        return 2 * half_width / ACROSS
 
     def rows(self, length: float) -> int:
         """Return the number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier

@@ -22,6 +22,7 @@ from lubfric.models.shared import (
     below_and_above,
 )
 from lubfric.output import report
+from lubfric.output.run_curve import _doubts
 from lubfric.quantities import OF_UNCERTAINTY
 from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
 
@@ -163,12 +164,12 @@ CASES = [
     (
         KNOWN | {"sampling": math.nan, "notes": ("one map is too short",)},
         (math.nan, math.nan),
-        "model-form 5 %; no 95 % interval: one map is too short",
+        "model-form 5 %; no 95 % interval",
     ),
     (
         KNOWN | {"sampling": math.nan},
         (math.nan, math.nan),
-        "f = 0.05; numerical 0.1 %, sampling not known, model-form 5 %",
+        "f = 0.05; numerical 0.1 %, sampling not known, model-form 5 %; no 95 % interval",
     ),
 ]
 
@@ -255,3 +256,13 @@ def test_towards_zero_is_above_a_negative_friction():
     assert Sides.of_ends(0.7, 0.2, -0.05) == (0.2, 0.7) == Sides.of_ends(0.2, 0.7, 0.05)
     assert Sides(3.0, 5.0).capped() == (1.0, 5.0)
     assert added_changes([(-3.0, 1.0), (4.0, -4.0), (2.0, 2.0)]) == pytest.approx((5.0, math.sqrt(21.0)))
+
+
+def test_why_points_have_no_interval_is_said_once():
+    """One patch of 8 correlation lengths at two speeds: one line, with what gives an interval."""
+    patch = {"shape": (96, 64), "spacing": 1e-6}
+    scene = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling": "patch"}, contact=patch)
+    curve = lubfric.stribeck(scene.with_(lubricant={"limiting_stress_coefficient": "f_b"}), [0.01, 0.02])
+    (line,) = _doubts(scene, curve)
+    begin = "no 95 % interval of f at 2 speeds, 0.01 to 0.02 m/s: 8 correlation lengths of the solved surface"
+    assert line.startswith(begin) and "omit numerics.sampling, or give a longer map" in line

@@ -104,9 +104,6 @@ MOST_GIVEN_OFF = 0.1
 ERROR_BY_GAP = 0.02
 BY_GAP = "the assumed gap of 1 nm between touching cells"
 
-# Length of cells over another one up to which both are the same [-]. A convention, for rounding.
-EQUAL_CELLS = 1 + 1e-9
-
 # Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
 # less warns of more points.
 CUT = 0.1
@@ -207,10 +204,10 @@ def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> C
     sample = prepared.sample
     scene = prepared.scene
     if sample.refines_in_place:
-        coarsening = patch_coarsening_to_look_at(scene, sample)
         surface = map_of_strip(prepared, 0)
-        longest = [step * count * EQUAL_CELLS for step, count in zip(surface.spacing, coarsening)]
-        if any(step > most for step, most in zip(finest.problem.spacing, longest)):
+        (along, across) = (round(long / short) for long, short in zip(finest.problem.spacing, surface.spacing))
+        coarsening = patch_coarsening_to_look_at(scene, sample, (along, across))
+        if coarsening != (along, across):
             finest = solve_strip(scene, surface, speed, map_coarsening=coarsening, start=finest, memo=prepared.memo)
         return fields_of(finest, sample.piece_on_cells_in_words(finest.problem.spacing))
     coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)

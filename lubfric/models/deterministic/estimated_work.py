@@ -184,7 +184,7 @@ def estimated_work(
     return WorkEstimate(
         strips=count,
         seconds=AT_REST * work,
-        fine_fields_seconds=0.0 if is_solved_finely(scene, sample) else work_of_fine_fields(scene, sample, sq, speed),
+        fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed, coarsening_at_rest(scene, sample)),
     )
 
 
@@ -357,18 +357,16 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     return cells.shorter_ones_pay(scene.numerics.model_tolerance)
 
 
-def is_solved_finely(scene: Scene, sample: Sample) -> bool:
-    """Return whether the deterministic model solves a patch on cells fine enough to look at: it needs no other fields."""
-    return sample.refines_in_place and patch_coarsening_to_look_at(scene, sample) == coarsening_at_rest(scene, sample)
-
-
-def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:
+def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float, solved: tuple[int, int]) -> float:
     """Return the processor time [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
-    solved from the dry contact, or of a patch from longer cells; ``sq`` [m]: of the surface."""
+    solved from the dry contact, or of a patch from cells of length ``solved``, in native ones, where these are too long; ``sq`` [m]:
+    of the surface."""
     (dx, dy) = sample.cells.native_spacing
     around = sum(reach(scene.line_contact(abs(speed)), sq))
     if sample.refines_in_place:
-        (fx, fy) = patch_coarsening_to_look_at(scene, sample)
+        (fx, fy) = patch_coarsening_to_look_at(scene, sample, solved)
+        if (fx, fy) == solved:
+            return 0.0
         return AT_REST * work_of_steps(
             around / (fx * dx) * sample.strip_length / (fy * dy), _finer_steps(scene, sq, speed)
         )

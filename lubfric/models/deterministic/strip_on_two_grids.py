@@ -93,11 +93,15 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
     return map_of_strip(prepared, index), take(prepared.scene, sample)
 
 
-def patch_coarsening_to_look_at(scene: Scene, sample: Sample) -> tuple[int, int]:
-    """Return the length, in native cells, of cells that show a patch at rest: those that the deterministic model solves it on
-    first, or as much shorter as the Hertz strip needs (`Cells.coarsening_to_look_at`)."""
-    solved = coarsening_at_rest(scene, sample)
-    return replace(sample.cells, coarsening=solved).coarsening_to_look_at(scene.bodies.half_width)
+def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int, int]) -> tuple[int, int]:
+    """Return the length, in native cells, of cells that show a patch at rest: those of length ``solved`` that f is found on, or the
+    longest shorter ones that show the Hertz strip (`Cells.longest_to_look_at`) and divide the rows of the map; else native ones."""
+    (dx, dy) = sample.cells.native_spacing
+    longest = sample.cells.longest_to_look_at(scene.bodies.half_width)
+    rows = sample.rows * sample.cells.coarsening[1]
+    along = min(solved[0], max(1, int(longest / dx)))
+    most = min(solved[1], max(1, int(longest / dy)))
+    return along, max(divisor for divisor in range(1, most + 1) if rows % divisor == 0)
 
 
 def coarsening_at_rest(scene: Scene, sample: Sample) -> tuple[int, int]:

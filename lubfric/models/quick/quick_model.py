@@ -313,7 +313,10 @@ class QuickModel(Model):
         )
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
-        fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0
+        (along, across) = sample_coarsening_of_long_cells(scene, sample)
+        (fx, fy) = sample.cells.coarsening
+        solved = round(along * fx), round(across * fy)
+        fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed, solved) if seconds else 0.0
         shared = alone.shared if is_shared else ()
         return replace(alone, seconds=seconds, fine_fields_seconds=fine_fields, shared=shared)
 
