@@ -156,7 +156,7 @@ def test_one_patch_is_too_short_for_an_interval():
         and known.numerical > 0
     )
     cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.15).uncertainty
-    assert "too short along y to estimate the undetected contact" in cleared.text
+    assert "too short along y to estimate the undetected contact; give a longer map along y" in cleared.text
 
 
 @pytest.mark.parametrize("scene", [PATCH.with_(contact={"model": "summits"}), FLAT], ids=["summits", "flat"])

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ...quantities import depending_on
+from ...samples import way_to_longer_line
 from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
 from ..shared import (
     BY_HEAT,
@@ -364,7 +365,7 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
         if balanced.on_cells is None:
             return (NO_CELLS,)
         if balanced.response is None:
-            return (UNDETECTED_UNKNOWN,)
+            return (f"{UNDETECTED_UNKNOWN}; give {way_to_longer_line(scene, sample.whole_map)}",)
         return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1], sample),)
     if error > tolerance and needed > 1:
         times = float(f"{needed:.2g}")

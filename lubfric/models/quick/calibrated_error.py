@@ -25,7 +25,7 @@ OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form 
 RATIO_IN_WORDS = "lambda ratio by closed forms"
 # What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
-WIDENED = "read f with its interval, which is wider for that"
+WIDENED = "read f with its model-form error, which is larger for that"
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width. A
 # choice: less reports more.
