@@ -230,21 +230,21 @@ def lay_out(
 
 
 def _columns_taken(
-    surface: Surface, line: LineContact, coarsening: int, ends: tuple[float, float] | None = None
+    surface: Surface, line: LineContact, times: int, ends: tuple[float, float] | None = None
 ) -> np.ndarray:
-    """Return the numbers of the columns of ``surface``, continued, that a grid takes on cells ``coarsening`` times as long along
+    """Return the numbers of the columns of ``surface``, continued, that a grid takes on cells so many ``times`` as long along
     x; ``ends``: as of `lay_out`."""
-    dx = surface.spacing[0] * coarsening
+    dx = surface.spacing[0] * times
     upstream, downstream = reach(line, surface.sq) if ends is None else ends
     begins = line.lubricant.inlet_length
     if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
         upstream = begins - 1.5 * dx + 1e-9 * dx
     # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
     middle = (surface.shape[0] - 1) / 2
-    taken = coarsening // 2
-    first = math.floor((middle - taken) / coarsening - upstream / dx)
-    last = math.ceil((middle - taken) / coarsening + downstream / dx)
-    return taken + coarsening * np.arange(first, last + 1)
+    taken = times // 2
+    first = math.floor((middle - taken) / times - upstream / dx)
+    last = math.ceil((middle - taken) / times + downstream / dx)
+    return taken + times * np.arange(first, last + 1)
 
 
 def has_too_many_cells(surface: Surface, line: LineContact, map_coarsening: tuple[int, int]) -> bool:
