@@ -30,7 +30,7 @@ from ..models.shared import (
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult
-from ..time import TransientResult, in_motion, may_move_roughness, run_model_of, scene_at
+from ..time import TransientResult, in_motion, may_move_roughness, rolls, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
@@ -513,10 +513,10 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
 
 def _history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
     """Return the table of the effects that are not modelled, at the output at which f is nearest to its mean."""
-    rolls = np.flatnonzero(in_motion(result.columns) & (result.entrainment_speed != 0))
-    if result.time.size < 2 or not rolls.size:
+    moments = np.flatnonzero(rolls(result.columns))
+    if result.time.size < 2 or not moments.size:
         return effects_table(estimate.effects, "at the largest speed")
-    index = int(rolls[np.argmin(np.abs(result.coefficient[rolls] - result.average().coefficient))])
+    index = int(moments[np.argmin(np.abs(result.coefficient[moments] - result.average().coefficient))])
     time = float(result.time[index])
     load = result.load[index]
     effects = unmodelled_effects(
@@ -563,13 +563,11 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         if run_model_of(scene).solves_rough_film
         else f"The smallest film thickness, under the film load, is {film}."
     )
-    fastest = np.abs(result.entrainment_speed).max(initial=0.0)
-    rolls = np.abs(result.entrainment_speed) > TABLE_ROUNDING * fastest
-    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls]
+    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
         sentences.append(
             "The lambda ratio (full-load film thickness in steady motion over Sq) lies between "
-            f"{_number(_rounded(ratio, int(ratio.argmin())))} and {_number(float(ratio.max()))}."
+            f"{_number(float(ratio.min()))} and {_number(float(ratio.max()))}."
         )
     solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
     if solved.size:
@@ -584,7 +582,7 @@ def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
     """Return what a reader of f and of its mean should know: which model answers, and where a steady point may have a
     narrower interval; why f is negative at some times; and that the run contains its start."""
     notes = [_model_of_run(scene, result)]
-    negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0)))
+    negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0) & in_motion(result.columns)))
     if negative:
         notes.append(
             f"f is the force on the upper surface along its sliding, over the load. It is negative at "
@@ -612,8 +610,8 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
 
 
 def _largest_friction(result: TransientResult) -> int:
-    """Return the index of the output with the largest friction coefficient, without its sign."""
-    return int(np.nanargmax(np.abs(result.coefficient)))
+    """Return the index of the output in motion with the largest friction coefficient, without its sign."""
+    return int(np.nanargmax(np.where(in_motion(result.columns), np.abs(result.coefficient), -1.0)))
 
 
 def _history_budget(result: TransientResult) -> str:
@@ -646,8 +644,11 @@ def _history_table(result: TransientResult) -> str:
         chosen |= {int(np.nanargmax(c["power_loss"]))}
     rows_at = sorted(chosen)
     moving = in_motion(c)
+    entrains = rolls(c)
     units = {name: unit_of_largest(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
+    shown |= {name: np.where(moving, shown[name], 0.0) for name in ("entrainment_speed", "sliding_speed")}
+    shown |= {name: np.where(entrains, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
     before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
     after = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "after"]
     heads = [_heading(name, units[name]) for name in before]

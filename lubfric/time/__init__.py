@@ -15,6 +15,7 @@ from .result import (
     errors_in_time,
     friction_over_time,
     in_motion,
+    rolls,
     time_scale,
 )
 from .run import raise_if_failed, run_in_time, transient

@@ -26,6 +26,7 @@ from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
 from .registry import run_model_of
+from .transient_deterministic import REST
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -172,12 +173,14 @@ class TransientResult(Renamed, Shown):
 
     def average(self) -> TimeAverage:
         """Return the average of f over the time in motion, by trapezes between the outputs (which have to be dense
-        enough to show f; one at a standstill counts nothing); its error; and its scatter for fixed and for moving
-        roughness."""
+        enough to show f; between one at a standstill and one in motion f is that of the latter); its error; and its scatter
+        for fixed and for moving roughness."""
         half = 0.5 * np.diff(self.time)
         moving = in_motion(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
-        share = float(weight[moving].sum() / weight.sum())
+        of_motion = half * np.where(moving[1:] == moving[:-1], 1.0, 2.0)
+        in_time = np.append(of_motion, 0.0) + np.append(0.0, of_motion) if half.size else weight
+        share = float(in_time[moving].sum() / weight.sum())
         of_run = {name: float(np.average(self.columns[name], weights=weight)) for name in POWER if name in self.columns}
         loss, *ends = (of_run.get(name, math.nan) for name in POWER)
         if not share:
@@ -192,7 +195,7 @@ class TransientResult(Renamed, Shown):
             )
         names = "coefficient", "sampling_error", "entrainment_speed"
         f, error, speed = (self.columns[name][moving] for name in names)
-        weight = weight[moving]
+        weight = in_time[moving]
         low, high = (float(np.average(end[moving], weights=weight)) for end in self.uncertainty.interval.T)
         mean = float(np.average(f, weights=weight))
         size = abs(mean) or math.nan
@@ -273,9 +276,12 @@ class TransientResult(Renamed, Shown):
     def _facts(self) -> dict[str, str]:
         facts = {"": f"{self.time.size} times"}
         t = self.time
-        f = self.coefficient
         if t.size:
-            facts |= {"t": f"{t[0]:.4g} to {t[-1]:.4g} s", "f": f"{f.min():.4g} to {f.max():.4g}"}
+            f = self.coefficient[in_motion(self.columns)]
+            facts |= {
+                "t": f"{t[0]:.4g} to {t[-1]:.4g} s",
+                "f": f"{f.min():.4g} to {f.max():.4g}" if f.size else "at rest",
+            }
         return facts | {"status": self.report.status}
 
     def __getattr__(self, name: str) -> FloatArray:
@@ -439,8 +445,16 @@ def _residual(columns: dict[str, np.ndarray], name: str, tolerance: float, what:
 
 
 def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:
-    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves."""
-    return (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
+    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves: faster than `REST` times
+    the largest speed of the run, so that a reversal is a standstill whatever the rounding errors of a period."""
+    speeds = np.abs([c["entrainment_speed"], c["sliding_speed"]])
+    return (speeds > REST * np.max(speeds, initial=0.0)).any(axis=0)
+
+
+def rolls(c: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the times (bools) at which the surfaces entrain oil, by the limit of `in_motion`; else there is no lambda
+    ratio."""
+    return in_motion(c | {"sliding_speed": np.zeros(c["entrainment_speed"].size)})
 
 
 def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
@@ -452,9 +466,10 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
     moving = in_motion(c)
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
     figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
-    if not moving.all():
+    resting = ~moving
+    if (resting[1:] & resting[:-1]).any():  # a band between two outputs
         rest_band: dict[str, Any] = {
-            "where": ~moving,
+            "where": resting,
             "transform": axes.get_xaxis_transform(),
             "label": "at rest: no f",
         }

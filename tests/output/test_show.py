@@ -119,6 +119,30 @@ def test_a_loop_omits_a_standstill_and_a_history_names_no_band_it_has_not(histor
     assert not any("95 %" in text for text in legend(np.nan))
 
 
+def test_a_reversal_by_rounding_is_a_standstill_in_mean_and_picture(history):
+    """A frequency of nine digits leaves 1e-8 of the speed at a reversal, where f is no friction of a motion."""
+    at_reversal = {
+        "entrainment_speed": -1e-8 * history.entrainment_speed[10],
+        "sliding_speed": -1e-8 * history.sliding_speed[10],
+        "coefficient": 0.3,
+    }
+    columns = {name: np.array(history.columns[name]) for name in at_reversal}
+    for name, value in at_reversal.items():
+        columns[name][10] = value
+    reversing = replace(history, columns=history.columns | columns)
+    others = np.delete(history.coefficient, 10)
+    mean = reversing.average()
+    assert mean.in_motion == pytest.approx(1.0) and others.min() < mean.coefficient < others.max()
+    assert f"f {others.min():.4g} to {others.max():.4g}" in repr(reversing)
+    drawn = reversing.plot(axes())
+    assert np.isnan(lines(drawn)["friction coefficient"][10, 1])
+    assert "at rest: no f" not in [text.get_text() for text in drawn.get_legend().get_texts()]
+    for name in ("entrainment_speed", "sliding_speed"):
+        columns[name][11] = 0.0
+    resting = replace(history, columns=history.columns | columns).plot(axes())
+    assert "at rest: no f" in [text.get_text() for text in resting.get_legend().get_texts()]
+
+
 def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
     count = {"load": 2.0, "boundary_force": 0.0, "couette_force": 0.0, "rolling_force": -0.2, "coefficient": 0.1}
     columns = {name: np.full(2, value) for name, value in count.items()}

@@ -115,6 +115,16 @@ def test_the_time_of_a_mean_is_that_of_the_outputs(held):
         assert history_answer(STRIPS, run, complete=True)[0].startswith(f"The mean friction coefficient {words}")
 
 
+def test_the_largest_f_and_the_lambda_ratios_of_a_run_are_those_of_its_motion(held):
+    """At a reversal a frequency of nine digits leaves some 1e-8 of the speed."""
+    slow = {"entrainment_speed": 1e-8, "sliding_speed": 1e-8, "lambda_ratio": 1e-8, "coefficient": 10.0}
+    columns = {name: held.columns[name] * np.array([1.0, factor, 1.0]) for name, factor in slow.items()}
+    text = " ".join(history_answer(STRIPS, replace(held, columns=held.columns | columns), complete=True))
+    largest, low, high = re.search(r"largest f is (\S+) .*lies between (\S+) and (\S+)\. ", text).groups()
+    assert float(largest) == pytest.approx(held.coefficient.max(), rel=0.01)
+    assert [float(low), float(high)] == pytest.approx(held.lambda_ratio[[0, 2]], rel=0.01)
+
+
 def test_friction_gives_no_power():
     """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at 0."""
     sliding = Harmonic(amplitude=0.2, frequency=500.0, phase=3.3)
@@ -160,12 +170,12 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
         "model_error_low": np.array([0.5, 0.4, 0.3, np.nan]),
         "model_error_high": np.array([0.1, 0.2, 0.6, np.nan]),
     }
-    weight = np.array([0.5, 1.0, 1.0])
+    weight = np.array([0.5, 1.0, 1.5])  # between the third and the standstill f is that of the third
     mean = replace(held, columns=columns, inputs=0.0, requested=()).average()
     below, above = mean.budget["model-form"]
     assert mean.coefficient * (1 - below) == pytest.approx(mean.interval[0])
     assert mean.coefficient * (1 + above) == pytest.approx(mean.interval[1])
-    assert below * 2.5 * mean.coefficient == pytest.approx(weight @ [0.02, 0.024, 0.03])
+    assert below * 3.0 * mean.coefficient == pytest.approx(weight @ [0.02, 0.024, 0.03])
     assert mean.budget["sampling"] == (0.0, 0.0)
 
 
@@ -267,9 +277,9 @@ def test_the_second_period_of_two_is_read_alone(tmp_path):
     np.testing.assert_allclose(result.time, whole.time[8:], rtol=1e-12)
     for name in ("coefficient", "contact_load", "central_film"):
         np.testing.assert_allclose(getattr(result, name), getattr(whole, name)[8:], rtol=5e-3)
-    assert result.average().coefficient == pytest.approx(
-        np.trapezoid(whole.coefficient[8:], whole.time[8:]) / 0.01, rel=5e-3
-    )
+    between_standstills = whole.coefficient[[9, 10, 11, 13, 14, 15]]
+    weight = np.array([1.5, 1.0, 1.5, 1.5, 1.0, 1.5])  # next to a standstill f is that of the output in motion
+    assert result.average().coefficient == pytest.approx(weight @ between_standstills / 8, rel=5e-3)
     assert result.start_in_words == ""
     first = lubfric.transient(scene.with_(transient=Transient(0.01, outputs=8, **motion)))
     assert "transient.first_output" in first.start_in_words
