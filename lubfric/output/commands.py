@@ -21,7 +21,7 @@ from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
 
 import numpy as np
 
@@ -222,7 +222,7 @@ def run_begun(
 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
-    begun = time.perf_counter()
+    begun = CommandStart.now()
     check_outputs(arguments, arguments.out, names, OUTPUTS)
     unusual = violations_by_unusual_inputs(scene)
     refused(unusual, accept=scene.numerics.accept)  # before the map is made, which the wrong unit may make large
@@ -354,15 +354,41 @@ def map_checksums(scene: Scene) -> dict[str, str]:
     return {str(path): files.checksum_of_file(path) for path in paths}
 
 
+class CommandStart(NamedTuple):
+    """When a command began [s], by `time.perf_counter`, and the processor time that had passed then."""
+
+    moment: float
+    processor: float
+
+    @classmethod
+    def now(cls) -> CommandStart:
+        """Return that a command begins now."""
+        return cls(time.perf_counter(), _processor_time())
+
+    @property
+    def seconds(self) -> float:
+        """The elapsed time [s] since then."""
+        return time.perf_counter() - self.moment
+
+    def in_words(self) -> str:
+        """Return the elapsed and the processor time since then, as text: the latter is what a command estimates."""
+        return f"{self.seconds:.1f} s ({_processor_time() - self.processor:.1f} s of processor time on this machine)"
+
+
+def _processor_time() -> float:
+    """Return the processor time [s] of this process and of the ended ones that it began."""
+    return sum(os.times()[:4])
+
+
 class RunFolder:
-    """What a command that has ``begun`` (`time.perf_counter`) puts in the folder ``path``: ``contents`` by name. The
+    """What a command that has ``begun`` puts in the folder ``path``: ``contents`` by name. The
     last says that the others are complete.
 
     ``unfinished`` has what an interrupted run of the same ``fingerprint`` saved. What others saved is left alone.
     ``map_checksums``: of the height maps that were read, by path.
     """
 
-    def __init__(self, path: Path, begun: float, fingerprint: str):
+    def __init__(self, path: Path, begun: CommandStart, fingerprint: str):
         self.path = path
         self.begun = begun
         self.fingerprint = fingerprint
@@ -422,7 +448,7 @@ class RunFolder:
             "surface": map_,
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
-            "seconds": time.perf_counter() - self.begun,
+            "seconds": self.begun.seconds,
             "hash": self.fingerprint,
             "report": result.report.as_dict(),
             "validity": result.validity,
@@ -477,11 +503,11 @@ class RunFolder:
         for text in lines:
             say(text)
         names = ", ".join(sorted(self.contents))
-        say(f"wrote {names} to {self.path} in {time.perf_counter() - self.begun:.1f} s")
+        say(f"wrote {names} to {self.path} in {self.begun.in_words()}")
 
 
 @contextmanager
-def run_folder(path: Path, begun: float, fingerprint: str = "") -> Iterator[RunFolder]:
+def run_folder(path: Path, begun: CommandStart, fingerprint: str = "") -> Iterator[RunFolder]:
     """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint``: a `RunFolder`.
 
     Raises `InputError` if another process writes to it, and `OutputError` if it cannot be used, or if a picture was not

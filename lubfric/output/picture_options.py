@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
+# Panels of a picture from the top, by the table that it is drawn from.
+PANELS = {"stribeck": ("friction", "load", "film"), "traction": ("friction", "load", "film", "temperature")}
 
 # Choices, by looking at the figures.
 PICTURE_WIDTH = 7.0  # inch: of a picture
@@ -34,7 +35,7 @@ class PictureOptions:
 
     Attributes
     ----------
-    panels : of a Stribeck curve, of "friction", "load" and "film"
+    panels : of a Stribeck or a traction curve, of its `PANELS`
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
     width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
     dpi : points of a PNG per inch; None: `PRINTED_DPI` where the width is chosen, else that of the style
@@ -44,7 +45,7 @@ class PictureOptions:
     has_bars : whether the intervals of a curve are bars at its points, in place of a band with those lines
     """
 
-    panels: tuple[str, ...] = PANELS
+    panels: tuple[str, ...] = PANELS["traction"]
     x_scale: str | None = None
     y_scale: str | None = None
     width: float | None = None

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base import FloatArray, figures
+from ..errors import InputError
 from ..studies import friction_over_speed, gaps_of, interval_band
 from ..time import band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
 
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
-PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
-TEMPERATURE_HEIGHT = 2.6  # inch, at the usual width: of the temperatures of a traction curve
+PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3, "temperature": 2.6}  # inch, at the usual width
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
@@ -48,11 +48,8 @@ def plot_stribeck(
     for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured` over
     speed, drawn with the curve.
     """
-    panels = [name for name in PANELS if name in options.panels]
-    heights = [PANEL_HEIGHTS[name] for name in panels]
-    figure = figures.new_figure(figsize=options.size(heights))
-    shown = figure.subplots(len(panels), 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
-    axes = dict(zip(panels, shown))
+    figure, axes = _panels([name for name in PANELS["stribeck"] if name in options.panels], options)
+    shown = [*axes.values()]
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -116,38 +113,62 @@ def plot_traction(
     order = good[np.argsort(columns["ratio"][good])]
     c = type(columns)((name, column[order]) for name, column in columns.items())
     ratio = c["ratio"]
-    load = c["contact_load"] + c["film_load"]
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
-    heights = [*PANEL_HEIGHTS.values(), TEMPERATURE_HEIGHT][: 3 + warm]
-    figure = figures.new_figure(figsize=options.size(heights))
-    top, loads, film, *others = figure.subplots(len(heights), 1, sharex=True, height_ratios=heights)
-    gaps = _draw_gaps(top, c)
-    numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
-    broken = type(columns)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
-    along = broken["ratio"]
-    interval_band(top, along, broken, has_parts=options.has_parts, as_bars=options.has_bars)
-    shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
-    parts = [np.insert(part, gaps, np.nan) for part in shown]
-    figures.friction_lines(top, along, parts, marker="o", ms=4)
-    _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
+    panels = [name for name in PANELS["traction"] if name in options.panels and (warm or name != "temperature")]
+    if not panels:
+        raise InputError(
+            "--panels temperature: the curve has no temperatures, which its runs have not computed; omit it"
+        )
+    figure, axes = _panels(panels, options)
+    if "friction" in axes:
+        top = axes["friction"]
+        _traction_over_ratio(top, c, options)
+        _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title if options.has_title else "")
-    top.set_ylabel(figures.FRICTION_LABEL)
-    figures.load_shares(loads, ratio, c["contact_load"] / load)
-    figures.key_above(loads)
-    _films(film, ratio, c)
-    line = "-" if ratio.size > 1 else "o"
-    for bottom in others:
-        bottom.plot(ratio, c["flash_temperature_rise"], line, color=figures.RED, label="surfaces (flash temperature)")
-        bottom.plot(ratio, c["film_temperature_rise"], line, color=figures.GREEN, label="film, above the surfaces")
-        bottom.set(ylabel="largest temperature rise (K)")
-        figures.key_above(bottom)
-    last = others[-1] if others else film
+    if "load" in axes:
+        figures.load_shares(axes["load"], ratio, c["contact_load"] / (c["contact_load"] + c["film_load"]))
+        figures.key_above(axes["load"])
+    if "film" in axes:
+        _films(axes["film"], ratio, c)
+    if "temperature" in axes:
+        _temperatures(axes["temperature"], ratio, c)
+    last = axes[panels[-1]]
     last.set_xlabel("slide-roll ratio (-)")
     figures.log_if_wide(last, "x", ratio)
-    options.scale(last, friction=top, f=c["coefficient"])
+    options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
     figures.plain_ticks(last.xaxis)
     options.thin(figure)
     figure.savefig(path)
+
+
+def _panels(panels: list[str], options: PictureOptions) -> tuple[Figure, dict[str, Axes]]:
+    """Return a figure with these ``panels`` one above the other, and their axes by name."""
+    heights = [PANEL_HEIGHTS[name] for name in panels]
+    figure = figures.new_figure(figsize=options.size(heights))
+    shown = figure.subplots(len(panels), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    return figure, dict(zip(panels, shown))
+
+
+def _traction_over_ratio(axes: Axes, c: dict[str, np.ndarray], options: PictureOptions) -> None:
+    """Draw f, its interval and its parts over the slide-roll ratio, from the columns ``c`` by ascending ratio."""
+    gaps = _draw_gaps(axes, c)
+    numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
+    broken = type(c)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
+    interval_band(axes, broken["ratio"], broken, has_parts=options.has_parts, as_bars=options.has_bars)
+    load = c["contact_load"] + c["film_load"]
+    shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
+    parts = [np.insert(part, gaps, np.nan) for part in shown]
+    figures.friction_lines(axes, broken["ratio"], parts, marker="o", ms=4)
+    axes.set_ylabel(figures.FRICTION_LABEL)
+
+
+def _temperatures(axes: Axes, ratio: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Draw the largest temperature rises of surfaces and film over the slide-roll ``ratio``."""
+    line = "-" if ratio.size > 1 else "o"
+    axes.plot(ratio, c["flash_temperature_rise"], line, color=figures.RED, label="surfaces (flash temperature)")
+    axes.plot(ratio, c["film_temperature_rise"], line, color=figures.GREEN, label="film, above the surfaces")
+    axes.set(ylabel="largest temperature rise (K)")
+    figures.key_above(axes)
 
 
 def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray]) -> list[int]:

@@ -389,11 +389,11 @@ def _dpi(arguments: Namespace) -> float | None:
 
 def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     """Return the options of the picture of the table ``name`` by the ``arguments`` of ``lubfric plot``."""
-    panels = PANELS
+    panels = PANELS["traction"]
     if arguments.panels is not None:
-        if name != "stribeck":
-            raise InputError(f"--panels chooses parts of a Stribeck curve, and this is {TABLES[name]}; omit it")
-        panels = tuple(validate.choice("--panels", word.strip(), PANELS) for word in arguments.panels.split(","))
+        if name not in PANELS:
+            raise InputError(f"--panels chooses parts of the picture of a curve, and this is {TABLES[name]}; omit it")
+        panels = tuple(validate.choice("--panels", word.strip(), PANELS[name]) for word in arguments.panels.split(","))
     scales = {option: getattr(arguments, option) for option in ("x_scale", "y_scale")}
     for option, scale in scales.items():
         if scale is not None:

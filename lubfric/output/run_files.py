@@ -72,8 +72,7 @@ RUN_FILES = (
     RunFile(
         name="contact.png",
         runs=("stribeck",),
-        caption="The contact at one speed. Its title names the part of the surface and the cells, which may "
-        "not be those of f and of the warnings",
+        caption="The contact at one speed. The cells of this picture may not be those of f and of the warnings",
         is_drawn_again=True,
     ),
     RunFile(name="contact_at_*.png", is_drawn_again=True),

@@ -21,7 +21,7 @@ from ..scene import Scene
 from ..studies import WITHIN_WORDS, in_words
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import RunFolder, check_outputs, keeping, paced, run_folder, say
+from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table
@@ -41,7 +41,7 @@ def run_in_scene(arguments: Namespace) -> None:
             f"{given} is for wear, which needs {missing} as well", recommendation=f"give {missing}, or neither"
         )
     check_outputs(arguments, arguments.out, FOLDER_FILES)
-    begun = time.perf_counter()
+    begun = CommandStart.now()
     with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work
         seconds = estimated_run_in(scene, distance=distance, wear_coefficient=coefficient)
         say(f"{scene.name}: running-in of its surface, about {in_words(seconds)} of processor time ({WITHIN_WORDS})")

@@ -22,7 +22,7 @@ from ..estimate import FrictionResult
 from ..quantities import KEYS, counted, worded_value
 from ..units import number_and_unit, numbers_of, with_interval, worded
 from .command_line import scene_of
-from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
+from .commands import CommandStart, answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .fit_picture import drawn_record, plot_fit
 from .progress import ProgressLine
 from .run_files import RESOLVED_SCENE, RESOLVED_STUDY
@@ -48,12 +48,16 @@ def run_study(arguments: Namespace) -> None:
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, [*names, STUDY_PICTURE, "report.html", RESOLVED_SCENE, RESOLVED_STUDY])
     say(plan.explain(arguments.out))
-    begun = time.perf_counter()
+    begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
     kept = keeping(lambda: _kept(arguments.out))
     with ProgressLine("points") as shown, kept, workers_of as executor, progress_to(moment_reports()):
         result = studies.study(
-            plan, executor=executor, store=arguments.out, on_progress=shown.update, on_point=_point_reports(plan, begun)
+            plan,
+            executor=executor,
+            store=arguments.out,
+            on_progress=shown.update,
+            on_point=_point_reports(plan, begun.moment),
         )
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
@@ -155,7 +159,9 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
         return f"{'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
     f = with_interval(outcome.coefficient, *outcome.uncertainty.interval)
     negative = NEGATIVE if outcome.coefficient < 0 and outcome.speed >= 0 else ""
-    return f"f = {f}{negative}, P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
+    unknown = "" if math.isfinite(outcome.uncertainty.interval[0]) else " (95 % interval not known)"
+    power = with_interval(outcome.power_loss, *outcome.power_loss_interval, unit="W")
+    return f"f = {f}{negative}{unknown}, P = {power}"
 
 
 def run_fit(arguments: Namespace) -> None:
@@ -169,7 +175,7 @@ def run_fit(arguments: Namespace) -> None:
     check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
     bounds = _bounds(arguments.parameter)
-    begun = time.perf_counter()
+    begun = CommandStart.now()
     due = paced()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
@@ -182,7 +188,7 @@ def run_fit(arguments: Namespace) -> None:
                 f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} of the stated deviations"
             )
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
-            passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
+            passed = f"{begun.seconds:.0f} s, about {studies.in_words(left)} left"
             state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
             if math.isnan(misfit):
                 state = f"search, curve {done} of about {total}: best values so far {place}"

@@ -10,9 +10,10 @@ from scipy.fft import next_fast_len
 
 from .._base import validate
 from ..errors import InputError
+from ..quantities import KEYS
 from ..scene import Bodies, ContactDomain, Roughness, Scene, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface, shorter_in_words
-from ..units import worded
+from ..units import converted, worded
 from .cells import no_cells
 
 # Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
@@ -155,13 +156,15 @@ def check_map(scene: Scene, surface: Surface, whole: Surface) -> None:
     step = surface.spacing[0]
     length = surface.size[0]
     if step > half_width:
-        raise InputError(
+        error = InputError(
             f" = {worded(step, 'm')} along x does not resolve the Hertz strip: {load_in_words(scene.bodies)}",
             "contact.spacing",
             f"at most the half-width, {worded(half_width, 'm')}",
             CHECK_LOAD,
             also=("bodies.load",),
         )
+        error.hint(_load_in_kilonewtons(scene, step), asks=True)
+        raise error
     if length < 2 * half_width:
         (name, file) = limiting_map(scene, surface, 0)
         what = "the patch (contact.shape x contact.spacing)"
@@ -184,6 +187,21 @@ def _way_to_other_axis(scene: Scene, whole: Surface, name: str) -> str:
         return ""
     other = "x" if getattr(scene, name).motion_axis == "y" else "y"
     return f"{name}.motion_axis = {other!r} (if the motion is along {other} of the file, {worded(across, 'm')} long), "
+
+
+def _load_in_kilonewtons(scene: Scene, step: float) -> str:
+    """Return the question whether the load of ``scene`` was meant in kN: cells of ``step`` [m] then resolve the Hertz strip, under
+    a usual Hertz pressure; "" where they do not."""
+    bodies = scene.bodies
+    meant = replace(bodies, load=converted(bodies.load, "kN", "N"))
+    peak, meant_peak = (4 / math.pi * each.mean_hertz_pressure for each in (bodies, meant))
+    low, high = KEYS["bodies.hertz_pressure"].usual
+    if step > meant.half_width or not low <= meant_peak <= high:
+        return ""
+    return (
+        f"bodies.load = {worded(bodies.load, 'N')} gives a peak Hertz pressure of {worded(peak, 'Pa')}; did you mean "
+        f"{bodies.load:.4g} kN, which gives {worded(meant_peak, 'Pa')}?"
+    )
 
 
 def load_in_words(bodies: Bodies) -> str:

@@ -145,8 +145,8 @@ def refuse_profile(
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     message = f"file {name} contains a profile of {values.size} points, not a map of heights"
     recommendation = (
-        "measure a map; or generate a surface with the statistics of the profile: [surface] sq and correlation_length = "
-        "[along, across the motion] in place of file"
+        "measure a map; or remove the key file and generate a surface with these statistics: write sq and correlation_length into "
+        "[surface], one length for a surface that is alike in all directions, or [along, across the motion]"
     )
     z = values[np.isfinite(values)]
     if z.size >= PROFILE_LINES:

@@ -200,6 +200,19 @@ def test_a_traction_curve_is_drawn_by_its_table(figures):
     assert "(K)" in bottom.get_ylabel() and "slide-roll ratio (-)" == bottom.get_xlabel()
 
 
+def test_panels_of_a_traction_curve_are_chosen(figures):
+    columns = COLUMNS | {"ratio": COLUMNS["speed"]}
+    for panels in (("friction",), ("load", "temperature")):
+        plot_traction("x.png", columns, "title", [()] * 4, options=PictureOptions(panels=panels))
+    (alone, two) = figures
+    (top,) = alone.axes
+    assert top.get_xlabel() == "slide-roll ratio (-)" and alone.get_figheight() < 4
+    assert [axes.get_ylabel() for axes in two.axes] == ["load ratio (-)", "largest temperature rise (K)"]
+    cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
+    with pytest.raises(lubfric.InputError, match="no temperatures"):
+        plot_traction("x.png", columns | cold, "t", [()] * 4, options=PictureOptions(panels=("temperature",)))
+
+
 def test_one_ratio_shows_its_temperatures(figures):
     plot_traction(
         "x.png", {name: column[:1] for name, column in (COLUMNS | {"ratio": COLUMNS["speed"]}).items()}, "t", [()]

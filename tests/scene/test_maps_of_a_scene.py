@@ -310,6 +310,22 @@ def test_a_form_of_the_second_body_is_named_and_one_of_a_given_map_too(maps):
     assert found.recommendation == "take the form off the map: level('cylinder')"
 
 
+@pytest.mark.parametrize("load, is_asked", [(0.1, True), (1e-5, False)])
+def test_a_load_that_was_meant_in_kilonewtons_leads(load, is_asked):
+    """The peak Hertz pressure rises with the root of the load, so in kN it is 31.6 times as high."""
+    scene = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.prepare(scene.with_(bodies={"load": load}, contact={"shape": (64, 64), "spacing": 3e-6}))
+    words = str(caught.value)
+    assert words.startswith(f"bodies.load = {load:g} N gives a peak Hertz pressure of") == is_asked
+    assert (f"did you mean {load:g} kN" in words) == is_asked
+    if is_asked:
+        low, high = (
+            float(number) * {"MPa": 1, "GPa": 1e3}[unit] for number, unit in re.findall(r"([\d.]+) ([MG]Pa)", words)
+        )
+        assert high / low == pytest.approx(1000**0.5, rel=1e-2)
+
+
 def test_the_shorter_of_two_maps_is_named(maps):
     """By section and file: in the refusal of one shorter than the strip, and where its width leaves no interval."""
     pair = [
@@ -359,6 +375,12 @@ def test_a_map_whose_ends_cut_the_contact_off_is_named_beforehand(rise, is_short
     ends = [v for v in short.violations if v.what == "length of the patch along the motion"]
     assert len(ends) == is_short
     assert all("surface.extension = 'mirror'" in violation.recommendation for violation in ends)
+    assert not any("is cut" in violation.text for violation in ends)
+    longer = lubfric.generate_surface((shape[0] + 2, 192), GRID, sq=sq, correlation_length=4e-6, acf="gaussian", seed=1)
+    np.save(tmp_path / "longer.npy", longer.heights)
+    cut = lubfric.prepare(scene.with_(surface=file | {"file": str(tmp_path / "longer.npy")}))
+    ends = [v for v in cut.violations if v.what == "length of the patch along the motion"]
+    assert len(ends) == is_short and all("is cut to a whole number" in violation.text for violation in ends)
     mirrored = lubfric.prepare(scene.with_(surface=file | {"extension": "mirror"}))
     assert not [v for v in mirrored.violations if v.what == "length of the patch along the motion"]
     if is_short:

@@ -1,5 +1,6 @@
 """Each point of a study is reported when it is solved: to ``on_point``, and by the command in a line with f and P."""
 
+import math
 import re
 from concurrent.futures import ThreadPoolExecutor
 
@@ -70,4 +71,6 @@ def test_command_writes_f_and_power_of_each_point(tmp_path, capsys):
         power = with_interval(point.power_loss, *point.power_loss_interval, unit="W")
         start = f"[{number}/2] point {number} (position {place}): f = {point.coefficient:.3g}"
         assert lines[number - 1].startswith(start[:-1]) and f"P = {power}; " in lines[number - 1]
+        is_unknown = math.isnan(point.uncertainty.interval[0])
+        assert is_unknown == ("(95 % interval not known), P" in lines[number - 1])
     assert all(re.search(r"; \d+ s$", line) for line in lines)  # two points in a second are no measure of the time left

@@ -343,7 +343,10 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         work = times * pair.resolved.work
         cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
         if work > LONGEST_WORK:
-            return "a map on longer cells with numerics.grid = 'given' (its own would take too long)"
+            return (
+                "a map of longer cells than this one has, with numerics.grid = 'given', which solves on the cells of the map (a strip "
+                "on the cells of this map would take too long),"
+            )
         with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
         return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
     return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given'"

@@ -22,6 +22,7 @@ from ...samples import (
 )
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, advised_form, correlation_length, rms_slope
+from ...units import worded
 from .checks import (
     ON_ENDS,
     REFUSED_SHARE,
@@ -75,6 +76,10 @@ LEAST_STRIP_DEVIATION = 0.05
 YIELDED = 4.5e9
 
 
+# Length of a map over that of its patch up to which nothing was cut. A convention, for rounding.
+UNCUT_LENGTH = 1 + 1e-9
+
+
 def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
     """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change.
 
@@ -119,7 +124,7 @@ def beforehand(scene: Scene, sample: Sample, surface: Surface) -> tuple[Violatio
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
     lengths = math.nan if math.isnan(cells[1]) else surface.size[1] / sample.correlation_lengths[1]
     of_map = violations_by_map(rms_slope(surface)[2], lengths, cells, _longer_map(scene, sample))
-    of_ends = _violations_by_short_patch(scene, surface) if sample.is_resolved else ()
+    of_ends = _violations_by_short_patch(scene, surface, sample.whole_map) if sample.is_resolved else ()
     return (*violations_by_unusual_inputs(scene), *violations_by_bodies(scene.bodies), *of_map, *of_ends)
 
 
@@ -128,20 +133,23 @@ def _longer_map(scene: Scene, sample: Sample) -> str:
     return way_to_longer_line(scene, sample.whole_map) if is_measured(scene) else ""
 
 
-def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Violation]:
-    """Yield the violations by a patch ``surface`` whose ends may cut the contact off."""
+def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -> Iterator[Violation]:
+    """Yield the violations by a patch ``surface`` of the ``whole`` map whose ends may cut the contact off."""
     needed = length_of_rough_contact(scene, surface.sq)
     length = surface.size[0]
     if surface.sq == 0 or surface.periodic_axes[0] or length >= needed:
         return
     refuses = f"load sharing refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
+    cut = ""
+    if is_measured(scene) and scene.contact.shape is None and whole.size[0] > length * UNCUT_LENGTH:
+        cut = f"the map, {worded(whole.size[0], 'm')} long, is cut to a whole number of the longer cells of this contact; "
     yield Violation(
         assumption=Assumption.LONG_PATCH,
         what="length of the patch along the motion",
         value=1e6 * length,
         limit=1e6 * needed,
         unit="µm",
-        consequence="the contact of the rough surfaces is longer, and the ends of the patch may cut it off; "
+        consequence=f"{cut}the contact of the rough surfaces is longer, and the ends of the patch may cut it off; "
         f"{refuses}; the quick and the deterministic model, one of which answers by default then, continue the patch by its mirror "
         "image",
         recommendation=way_to_longer_patch(scene, surface),
