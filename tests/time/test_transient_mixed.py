@@ -287,3 +287,19 @@ def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
     result = lubfric.transient(scene.with_(transient=Transient(0.1, outputs=300, speed=wave)))
     took = time.process_time() - begun
     assert result.report.iterations >= 300 and took / (0.5 * (before + slowness())) < 30
+
+
+def test_steps_follow_the_order_of_the_method_down_to_small_errors():
+    """The local error of BDF2 falls with the third power of the step. If contact or balance were solved less accurately
+    than a step, their noise would be taken for it, and a tenth of the tolerance took four times as many steps."""
+    wave = Harmonic(mean=0.03, amplitude=0.01, frequency=50.0)
+    patch = lubfric.load_scene("paper").with_(
+        contact={"shape": (128, 128)}, numerics={"sampling": "patch", "accept": True}
+    )
+    steps = [
+        lubfric.transient(
+            patch.with_(transient=Transient(0.02, outputs=4, speed=wave, tolerance=error))
+        ).report.iterations
+        for error in (1e-5, 1e-6)
+    ]
+    assert 1.5 < steps[1] / steps[0] < 1.3 * 10 ** (1 / 3)
