@@ -285,6 +285,7 @@ class UncertaintyQuantities(Generic[T]):
         note="NaN where it is not known",
         default=math.nan,
     )
+    freedom: T = quantity("-", "degrees of freedom of the standard error of f", column="sampling_freedom", default=0.0)
     line_scatter: T = quantity(
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
@@ -378,7 +379,6 @@ KEYS |= {
 OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | {  # columns of the tables of studies
     "uncertainty_low": INTERVAL["interval_low"],
     "uncertainty_high": INTERVAL["interval_high"],
-    "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
     "uncertainty_tolerance": Quantity("-", "requested relative standard error of f"),
 }
 COLUMNS = (

@@ -135,7 +135,6 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     coefficient: float = math.nan
     interval: tuple[float, float] = (math.nan, math.nan)
-    freedom: float = 0.0
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
     model_sides: tuple[float, float] = UNKNOWN_SIDES

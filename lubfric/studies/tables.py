@@ -12,6 +12,7 @@ from scipy.interpolate import PchipInterpolator
 
 from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
+from ..models.shared import half_width_of_error
 from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import converted, unit_of_largest, worded
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
 
     from .._base.tables import Columns
 
-# Column, times it in the interval (by definition), line.
-OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))
+# Parts of the interval that are drawn by themselves: column, line.
+OF_INTERVAL = (("model_error", "--"), ("sampling_error", ":"))
 
 BAND = "95 % interval"
 # Lines of a plot, at most. A choice, by looking at the figures.
@@ -323,9 +324,12 @@ def interval_band(
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
     ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
-    for name, times, dashes in OF_INTERVAL if has_parts else ():
-        error = at(times * columns.get(name, unknown))
-        towards, away = (at(times * columns.get(f"{name}_{end}", unknown)) for end in ("low", "high"))
+    freedom = columns.get("sampling_freedom", unknown)
+    of_sample = [half_width_of_error(*pair) for pair in zip(columns.get("sampling_error", unknown), freedom)]
+    at_95 = dict(columns) | {"sampling_error": np.array(of_sample)}
+    for name, dashes in OF_INTERVAL if has_parts else ():
+        error = at(at_95.get(name, unknown))
+        towards, away = (at(columns.get(f"{name}_{end}", unknown)) for end in ("low", "high"))
         towards, away = (np.where(np.isfinite(side), side, error) for side in (towards, away))
         if np.nanmax(error, initial=0.0) > 0:
             thin: dict[str, Any] = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}

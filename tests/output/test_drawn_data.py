@@ -250,7 +250,7 @@ def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
 
 def test_the_key_of_a_narrow_figure_has_few_rows():
     axes = new_figure(figsize=(85 / 25.4, 60 / 25.4)).subplots()
-    errors = {"model_error": np.full(4, 0.1), "sampling_error": np.full(4, 0.05)}
+    errors = {"model_error": np.full(4, 0.1), "sampling_error": np.full(4, 0.05), "sampling_freedom": np.full(4, 9)}
     friction_over_speed(axes, COLUMNS | errors)
     axes.figure.canvas.draw()
     key = axes.get_legend()
@@ -587,6 +587,16 @@ def test_the_model_form_error_is_drawn_with_both_its_sides():
     interval_band(axes, np.array([1.0, 2.0]), columns)
     low, high = (line.get_ydata() for line in axes.lines[:2])
     assert low == pytest.approx(0.07) and high == pytest.approx(0.18)
+
+
+def test_the_sampling_error_is_drawn_at_95_percent_of_students_t():
+    """t is 2.776 with four degrees of freedom, and 4.303 with two (any table)."""
+    axes = new_figure().subplots()
+    f = np.array([0.1, 0.1])
+    columns = {"coefficient": f, "interval_low": 0.4 * f, "interval_high": 1.6 * f}
+    columns |= {"sampling_error": np.array([0.1, 0.1]), "sampling_freedom": np.array([4, 2])}
+    interval_band(axes, np.array([1.0, 2.0]), columns)
+    assert axes.lines[1].get_ydata() == pytest.approx([0.12776, 0.14303], rel=1e-3)
 
 
 def test_marks_of_warnings_and_lines_of_parts_are_left_out_where_requested(figures):
