@@ -37,6 +37,7 @@ LETTER = 3.8  # pt: width of a letter of that size, about
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
 GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be spaced by factors
 CORRELATION_ROUNDING = 1e-9  # of a correlation coefficient
+EQUAL_STEPS = 0.05  # range of steps that are equal, over their mean
 PART_WIDTH = 2.0  # pt: of the dashed line of a part of f, wider than that of f, which it may cover
 NARROW_FIGURE = 4.5  # inch: a figure up to this width has small letters in its keys
 SMALL_KEY_SIZE = 6.0  # pt: of these letters
@@ -162,9 +163,15 @@ def plain_ticks(axis: Axis) -> None:
 
 def log_if_wide(axes: Axes, name: str, values: np.ndarray) -> None:
     """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20, or are
-    spaced geometrically."""
-    if values.min() > 0 and (values.max() > 20 * values.min() or is_geometric(values)):
+    spaced geometrically, and not in equal steps."""
+    if values.min() > 0 and (values.max() > 20 * values.min() or is_geometric(values)) and not has_equal_steps(values):
         axes.set(**{f"{name}scale": "log"})
+
+
+def has_equal_steps(values: np.ndarray) -> bool:
+    """Return whether three ``values`` or more are apart by equal steps, within `EQUAL_STEPS`."""
+    steps = np.diff(np.unique(values))
+    return bool(steps.size > 1 and np.ptp(steps) <= EQUAL_STEPS * steps.mean())
 
 
 def is_geometric(values: np.ndarray) -> bool:

@@ -131,6 +131,16 @@ class FitResult(Renamed, Shown):
         return tuple(key for key, is_wide in zip(self.parameters, wide) if is_wide)
 
     @property
+    def undetermined_sides(self) -> dict[str, tuple[str, ...]]:
+        """By key, on which side the data do not determine a parameter, because its 95 % interval reaches that bound: "below",
+        "above"."""
+        sides = {}
+        for key, low, high in zip(self.parameters, *self._ends):
+            reached = tuple(side for side, at_bound in (("below", low <= 0.0), ("above", high >= 1.0)) if at_bound)
+            sides |= {key: reached} if reached else {}
+        return sides
+
+    @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some of the points."""
         unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
@@ -158,6 +168,8 @@ class FitResult(Renamed, Shown):
             statement = f"fitted, {value}, 95 % interval {low} to {high}"
             if key in self.undetermined:
                 statement = f"NOT DETERMINED by the data. Any value from {low} to {high} fits; {value} is one of them"
+            elif key in self.undetermined_sides:
+                statement += f". {self._one_sided(key)}"
             on_bound = "; it is on its bound" if key in self.at_bounds else ""
             lines.append(f"# {key}: {statement}{on_bound}.")
         return "\n".join([*lines, "", self.scene.to_toml()])
@@ -219,10 +231,7 @@ class FitResult(Renamed, Shown):
             if math.isnan(change):
                 reason = "f could not be solved at one of its bounds"
             lines.append(f"the data do not determine {key}: {reason}")
-        for key in self.profiles:
-            for side in self._limits_of(key) if len(self._limits_of(key)) == 1 else ():
-                other = {"lower": "upper", "upper": "lower"}[side]
-                lines.append(f"the data set {key} no {other} limit: f does not change with it at the fit")
+        lines += [f"{key}: {self._one_sided(key)}" for key in self.undetermined_sides if key not in self.undetermined]
         keys = [*self.parameters]
         correlation = self.correlation
         for i in range(len(keys)):
@@ -244,6 +253,18 @@ class FitResult(Renamed, Shown):
             more = counted(len(minima) - MOST_NAMED_MINIMA, "more minima")
             lines.append(f"fit.json and .other_minima have {more}")
         return lines
+
+    def _one_sided(self, key: str) -> str:
+        """Return in a sentence that the data do not determine a parameter on one side, where its interval ends at a bound."""
+        (side,) = self.undetermined_sides[key]
+        value, low, high = (worded_value(key, number) for number in (self.values[key], *self.intervals[key]))
+        (known, bound) = (high, low) if side == "below" else (low, high)
+        if key not in self.profiles:
+            return f"The data do not determine it {side}: {bound} is its bound, not an end by the data"
+        return (
+            f"The data do not determine it {side}: f does not change with it at {value}, and every value from {known} to its "
+            f"bound {bound} fits as well"
+        )
 
     def _model_note(self) -> str:
         """Return that the intervals do not include the model-form error of f, as text; "" where it has none."""
@@ -281,7 +302,9 @@ class FitResult(Renamed, Shown):
         if self.tests is not None and self.tests.text:
             lines.append(f"  WARNING: {self.tests.text}")
         for key, (low, high) in self.intervals.items():
-            note = " (not determined)" if key in self.undetermined else ""
+            sides = self.undetermined_sides.get(key, ())
+            note = f" (not determined {' and '.join(sides)})" if sides else ""
+            note = " (not determined)" if key in self.undetermined else note
             note += " (on its bound)" if key in self.at_bounds else ""
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")

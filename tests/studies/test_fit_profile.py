@@ -7,6 +7,7 @@ import pytest
 import lubfric
 from lubfric.errors import Report
 from lubfric.studies import Between, Candidate, FitResult, are_parted, flat_parameters, follow, with_minimum
+from lubfric.studies.fit_profile import Profile
 
 # Slip of the points: f rises with its logarithm, up to a limit.
 LOGARITHM = np.linspace(0.0, 1.0, 12)
@@ -120,3 +121,31 @@ def test_a_parameter_that_the_data_do_not_determine_does_not_look_determined_in_
     assert "boundary_friction_coefficient: fitted, 0.1, 95 % interval 0.099" in friction and "NOT" not in friction
     assert "surface.sq: NOT DETERMINED by the data. Any value from 10 nm to 1 µm fits" in roughness
     assert lubfric.load_scene(tmp_path / "fitted.toml") == result.scene
+
+
+def test_a_parameter_with_one_limit_is_not_determined_on_the_other_side():
+    """f does not change with the limit at the fit: every value above 0.3 of its bounds fits. f_b ends at its upper bound."""
+    x = np.array([0.01, 0.02, 0.04, 0.08])
+    limit = "lubricant.limiting_stress_coefficient"
+    friction = "bodies.boundary_friction_coefficient"
+    scene = lubfric.load_scene("paper").with_(lubricant={"limiting_stress_coefficient": 0.06})
+    result = FitResult(
+        base=scene,
+        measured=lubfric.Measured(x, np.full(4, 0.1)),
+        parameters={
+            friction: Between(low=0.05, high=0.15, scale="linear"),
+            limit: Between(low=0.02, high=0.12, scale="linear"),
+        },
+        unit=np.array([0.99, 0.7]),
+        unit_covariance=np.diag([1e-5, 1e3]),
+        predicted=np.full(4, 0.1),
+        slopes=np.stack([np.full(4, 0.1), np.zeros(4)], axis=1),
+        report=Report("fit", "converged", iterations=1, residual=0.0, tolerance=1.0),
+        profiles={limit: Profile(low=0.3, high=1.0, change=0.0)},
+    )
+    assert result.undetermined == () and result.undetermined_sides == {friction: ("above",), limit: ("above",)}
+    (of_friction, of_limit) = [line for line in result.to_toml().splitlines() if line.startswith("#")][1:]
+    text = "f does not change with it at 0.09, and every value from 0.05 to its bound 0.12 fits as well"
+    assert text in of_limit and text in result.explain() and "0.15 is its bound" in of_friction
+    lines = [line for line in result.explain().splitlines() if " = " in line]
+    assert all(line.endswith("(not determined above)") for line in lines) and len(lines) == 2

@@ -142,7 +142,15 @@ def test_a_grade_that_is_varied_is_no_common_input():
 
 
 @pytest.mark.parametrize(
-    "values, is_log", [([1, 2, 4, 8], True), ([1, 2, 3, 4], False), ([1, 1.5, 2], False), ([2, 30], False)]
+    "values, is_log",
+    [
+        ([1, 2, 4, 8], True),
+        ([1, 2, 3, 4], False),
+        ([1, 1.5, 2], False),
+        ([2, 30], False),
+        ([1, 10, 19, 28], False),
+        ([1, 3, 28], True),
+    ],
 )
 def test_numbers_that_are_spaced_by_factors_have_a_logarithmic_axis(values, is_log):
     axes = study_pictures.figures.new_figure().subplots()
