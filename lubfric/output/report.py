@@ -19,6 +19,7 @@ from ..models.shared import (
     ExpectedEffect,
     Prepared,
     UnmodelledEffect,
+    at_values,
     change_in_words,
     changes_by_alpha,
     is_note_text,
@@ -219,7 +220,8 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
             f"change f by {100 * by_alpha[0]:+z.2g} to {100 * by_alpha[1]:+z.2g} %, by closed forms."
         )
     if point.decision.basis:
-        sentences.append(sentence(point.decision.basis))
+        sentences.append(f"This point is by the {point.decision.basis}.")
+        sentences += _change_of_model(curve)
     low, high = point.power_loss_interval
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
     sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
@@ -246,6 +248,28 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
         ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
         sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
+
+
+def _change_of_model(curve: CurveResult) -> list[str]:
+    """Return in a sentence which points of a ``curve`` are by which model, and what that does to its numbers; none where all are
+    by the same."""
+    name, _, unit, plural = curve.SWEPT
+    places: dict[str, list[float]] = {}
+    for value, point in zip(getattr(curve, name).tolist(), curve.points):
+        if point is not None:
+            places.setdefault(_model_of(point), []).append(value)
+    if len(places) < 2:
+        return []
+    parts = "; ".join(f"{at_values(values, unit, plural)} by the {model}" for model, values in places.items())
+    return [
+        f"The points are not all by one model: {parts}. Each model has its own error, and numbers beside f, such as the smallest film "
+        "and the temperature rises, jump where the model changes."
+    ]
+
+
+def _model_of(point: FrictionResult) -> str:
+    """Return what a ``point`` is by, as text."""
+    return point.decision.basis or f"model {point.decision.model}"
 
 
 def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
@@ -432,7 +456,7 @@ def _details(curve: CurveResult) -> str:
             forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [_number(number) for number in (*forces, *lengths)]
-            rows.append(_cells([f"{value:.4g}", *parts, *numbers, point.decision.model]))
+            rows.append(_cells([f"{value:.4g}", *parts, *numbers, point.decision.basis or point.decision.model]))
     heads = [
         _heading(swept, unit),
         *(label.partition(" (")[0] for label in labels.values()),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict
@@ -222,13 +223,15 @@ def _write_fields(
 
 def _title(name: str, points: list[dict[str, Any]]) -> str:
     """Return the title of the picture of a curve: the ``name`` of the scene, and what the model-form error of its ``points``
-    (of its record) rests on, where a point states it. The band of the picture shows how large it is."""
+    (of its record) rests on, where a point states it, the most frequent first. The band of the picture shows how large it
+    is."""
     solved = [point for point in points if "error" not in point]
-    stated = [point["basis"] for point in solved if point.get("basis")]
-    if not stated:
-        return name
-    some = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), 'points')})"
-    return f"{name}\n{stated[0]}{some}"
+    stated = Counter(point["basis"] for point in solved if point.get("basis"))
+    lines = [
+        basis if count == len(solved) else f"{basis} ({count} of {counted(len(solved), 'points')})"
+        for basis, count in stated.most_common()
+    ]
+    return "\n".join([name, *lines])
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 import lubfric
 from lubfric.estimate import FrictionResult
+from lubfric.output import report, run_curve
 from lubfric.output.pictures import plot_surface
 
 PAPER = lubfric.load_scene("paper")
@@ -46,3 +47,21 @@ def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():
     figure = Figure(figsize=(85 / 25.4, 70 / 25.4))
     axes = FrictionResult.plot_contact(point, figure.subplots())
     assert axes.title.get_text() not in cut_texts(figure) and "0.476" in axes.title.get_text()
+
+
+def test_a_curve_by_two_models_says_which_points_are_by_which():
+    """Of a picture in its title, of a report in a sentence."""
+    names = {"long cells": [0.0, 0.5], "load-sharing model": [0.1, 0.2, 0.3]}
+    ratios = sorted((ratio, basis) for basis, values in names.items() for ratio in values)
+    title = run_curve._title("rig", [{"basis": basis} for _, basis in ratios])
+    assert title.splitlines() == ["rig", "load-sharing model (3 of 5 points)", "long cells (2 of 5 points)"]
+    points = [SimpleNamespace(decision=SimpleNamespace(basis=basis, model="quick")) for _, basis in ratios]
+    curve = SimpleNamespace(
+        SWEPT=("ratio", "S", "", "slide-roll ratios"), ratio=np.array([ratio for ratio, _ in ratios]), points=points
+    )
+    (sentence,) = report._change_of_model(curve)
+    assert "at 2 slide-roll ratios, 0 and 0.5 by the long cells" in sentence
+    assert "at 3 slide-roll ratios, 0.1 to 0.3 by the load-sharing model" in sentence and "jump" in sentence
+    curve.points = points[1:4]
+    curve.ratio = curve.ratio[1:4]
+    assert report._change_of_model(curve) == []

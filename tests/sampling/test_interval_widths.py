@@ -264,5 +264,5 @@ def test_why_points_have_no_interval_is_said_once():
     scene = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling": "patch"}, contact=patch)
     curve = lubfric.stribeck(scene.with_(lubricant={"limiting_stress_coefficient": "f_b"}), [0.01, 0.02])
     (line,) = _doubts(scene, curve)
-    begin = "no 95 % interval of f at 2 speeds, 0.01 to 0.02 m/s: 8 correlation lengths of the solved surface"
+    begin = "no 95 % interval of f at 2 speeds, 0.01 and 0.02 m/s: 8 correlation lengths of the solved surface"
     assert line.startswith(begin) and "omit numerics.sampling, or give a longer map" in line

@@ -81,7 +81,7 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
 
     lines = gathered([(1.0, at(0.03, 0.05)), (2.0, at(0.04, 0.05)), (3.0, at(5.0, 3.0))])
     assert lines == (
-        "at 2 speeds, 1 to 2 m/s: warning: lambda ratio is 0.03 (at 1 m/s) to 0.04 (at 2 m/s), below 0.05. Why.",
+        "at 2 speeds, 1 and 2 m/s: warning: lambda ratio is 0.03 (at 1 m/s) to 0.04 (at 2 m/s), below 0.05. Why.",
         "at 3 m/s: warning: lambda ratio is 5, above 3. Why.",
     )
     cells = [in_a_cell(at(*pair)) for pair in ((0.03, 0.05), (5.0, 3.0))]

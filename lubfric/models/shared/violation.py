@@ -277,10 +277,12 @@ def at_value(value: float, unit: str, name: str) -> str:
 
 
 def at_values(values: Sequence[float], unit: str, name: str) -> str:
-    """Return the place of several ``values`` of a curve: "at 3 speeds, 0.1 to 1 m/s"; of one as `at_value`."""
+    """Return the place of several ``values`` of a curve: "at 3 speeds, 0.1 to 1 m/s", "at 2 speeds, 0.1 and 1 m/s"; of one as
+    `at_value`."""
     if len(values) == 1:
         return at_value(values[0], unit, name)
-    return f"at {len(values)} {name}, {f'{min(values):.4g} to {max(values):.4g} {unit}'.rstrip()}"
+    between = "and" if len(values) == 2 else "to"
+    return f"at {len(values)} {name}, {f'{min(values):.4g} {between} {max(values):.4g} {unit}'.rstrip()}"
 
 
 def _distance(violation: Violation) -> float:
