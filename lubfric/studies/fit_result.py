@@ -134,7 +134,7 @@ class FitResult(Renamed, Shown):
     def undetermined_sides(self) -> dict[str, tuple[str, ...]]:
         """By key, on which side the data do not determine a parameter, because its 95 % interval reaches that bound: "below",
         "above"."""
-        sides = {}
+        sides: dict[str, tuple[str, ...]] = {}
         for key, low, high in zip(self.parameters, *self._ends):
             reached = tuple(side for side, at_bound in (("below", low <= 0.0), ("above", high >= 1.0)) if at_bound)
             sides |= {key: reached} if reached else {}
