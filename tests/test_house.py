@@ -37,6 +37,10 @@ SOURCE = re.compile(
     r"|[Mm]easured(?! (map|surface|point|height|area))|[Ff]itted|[Hh]alved|[Hh]alf and twice|[Hh]alf (changes|takes)|[Cc]hosen|[Cc]hoice|[Cc]onvention"
     r"|\b[Ff]ollows? from|\b[Aa]s in "
 )
+# What a module says whose constants have one source.
+SOURCE_OF_MODULE = "Constants that name no other source are measured on"
+# Numbers of a measurement that stands beside its constant: several of them.
+NUMBERS = re.compile(r"(?<![\w.])\.?\d[\d.,]*")
 # What stands in lubfric from before these rules: a number here may only fall.
 REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Names that tests import from inside a room, of all names that they import from lubfric.
@@ -150,7 +154,9 @@ def has_number(node: ast.AST) -> bool:
 
 def constants_without_source(tree: ast.Module, text: str) -> list[str]:
     """Return the numeric constants of a module whose comment, beside them or above them and the constants before them,
-    does not match `SOURCE`."""
+    neither matches `SOURCE` nor has three numbers, as those of a measurement; none where the module names one for all."""
+    if SOURCE_OF_MODULE in (ast.get_docstring(tree) or ""):
+        return []
     lines = text.splitlines()
     unnamed = []
     for node in tree.body:
@@ -165,7 +171,8 @@ def constants_without_source(tree: ast.Module, text: str) -> list[str]:
             above.pop()
         while above and above[-1].startswith("#"):
             comments.append(above.pop().strip("# "))
-        if not SOURCE.search(" ".join(reversed(comments))):
+        comment = " ".join(reversed(comments))
+        if not SOURCE.search(comment) and len(NUMBERS.findall(comment)) < 3:
             unnamed.append(target.id)
     return unnamed
 

@@ -27,7 +27,6 @@ RELEASED_GROWTH = 64 * 2**20
 
 # Bytes of the block whose release lets glibc keep as much again as it holds: a little less than the largest size from
 # which glibc learns, 32 MB (mallopt(3), "M_MMAP_THRESHOLD"). A Newton step on 10,368 cells takes 28 instead of 35 ms.
-# Chosen by it.
 LEARNED_SIZE = 32 * 2**20 - 2**16
 
 # Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB

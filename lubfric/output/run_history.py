@@ -22,7 +22,7 @@ from .run_files import names_of_run
 PART_OF_LINE = 0.04
 
 # Part of the expected steps that is done before the time left is stated; before it, the first steps, which are many and
-# short, decide it. In the run of a piston ring it is within a factor of 2 from there on. Measured so.
+# short, decide it. Measured in the run of a piston ring, where it is within a factor of 2 from there on.
 PART_OF_TIME_LEFT = 0.08
 
 

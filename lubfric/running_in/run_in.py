@@ -44,7 +44,7 @@ CONTACT_ITERATIONS = 9.4
 ITERATIONS_BY_FLATTENING = 0.32
 
 # Passes beyond the first until nothing sinks, over E' times a quarter of the rms slope, the scale of the asperity
-# pressures (`solved_ends_of_hardness`), over the hardness [-]: none at .25, two at .7, five at 2.3. Measured so.
+# pressures (`solved_ends_of_hardness`), over the hardness [-]: none at .25, two at .7, five at 2.3.
 PASSES_BY_YIELDING = 2.2
 
 # Parameters of a map in the table of a running-in, and their units.

@@ -35,7 +35,7 @@ LAST_CHANGE_OF_SUM = 1e-4
 MOST_CURVES = 30
 
 # Curves of the search by the scene's own model, about, beside two for each parameter: 3 to 5 were computed for one
-# parameter, 5 for two. Measured so.
+# parameter, 5 for two.
 USUAL_CURVES = 2
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.

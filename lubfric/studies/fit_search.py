@@ -24,8 +24,8 @@ MOST_SOBOL = 64
 # Curves at minima of the interpolation: for each parameter, beside two. A choice: a bound of the work.
 REFINEMENTS_PER_PARAMETER = 3
 
-# Curves at minima of the interpolation that are expected for each parameter: one and two parameters took one and two.
-# Measured so.
+# Curves at minima of the interpolation that are expected for each parameter: one and two parameters took one and two
+# in the fits of `python -m verification.campaigns.estimates`.
 USUAL_REFINEMENTS = 1
 
 # Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice: fewer may miss a

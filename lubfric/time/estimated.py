@@ -19,14 +19,15 @@ from .transient_deterministic import work_of_run
 STEP_TOLERANCE = 3e-5
 
 # Steps while the speed changes by a factor of e, at that tolerance: 20 and 59 in the examples reciprocating and
-# stop_and_start, 70 in a piston ring, 80 in a cam. Measured so.
+# stop_and_start, 70 in a piston ring, 80 in a cam.
 STEPS_OF_CHANGE = 60.0
 
 # Part of them [-] that a film takes less which fills the whole gap: 63 to 97 steps for 139 to 155 in five random runs of
 # `python -m verification.campaigns.estimates` at lambda ratios above 2.3.
 SPARED_BY_FILM = 0.5
 
-# How many times as many steps the load takes: 13 in a light and slow contact, 60 in a ring of thick film. Measured so.
+# How many times as many steps the load takes: measured 13 in a light and slow contact, 60 in a
+# ring of thick film.
 CHANGE_OF_LOAD = 0.5
 
 # How many times as many steps the radius takes, which moves the whole gap around the contact. A choice, above that of
@@ -55,14 +56,13 @@ MOST_PERIODS = 100.0
 STEPS_OF_START = 30.0
 
 # Steps after each corner of a table, beside those of its change: 5, 5 and 6 for a wave through 11, 31 and 121 rows.
-# Measured so.
 STEPS_OF_CORNER = 5.0
 
 # Processor seconds of the film in a step: 3 to 6 ms in 15 random runs of `python -m verification.campaigns.estimates`.
 FILM_STEP_SECONDS = 4e-3
 
 # Processor seconds of the contact in a step, over its cells: .5e-7 there in thin films, 1.2e-7 to 1.6e-7 in thicker
-# ones. Measured there.
+# ones.
 CELL_STEP_SECONDS = 1.3e-7
 
 

@@ -69,7 +69,6 @@ REST = 1e-6
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 # Steps beside those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20 outputs.
-# Measured so.
 OTHER_STEPS = 5
 # Processor time of a step over its counted work by the steps of a steady point, about. Measured in runs of `python -m
 # verification.campaigns.estimates`.

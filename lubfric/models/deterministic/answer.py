@@ -93,14 +93,15 @@ SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to
 # .006 the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at
-# .023, a gear flank, it gave -47 % for -30 %. Chosen between these.
+# .023, a gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
 
 # Share of the lubricant out of touching cells above which f depends on the assumed gap between them, and a note reports
 # it. A choice: less widens more intervals.
 MOST_GIVEN_OFF = 0.1
 
-# Error of f by that gap, at 95 % [-]: twice the change of some 1 % with half of it. Measured so.
+# Error of f by that gap, at 95 % [-]: the change with half of it is 1 to 2 % where it is largest
+# (docs/deterministic.md).
 ERROR_BY_GAP = 0.02
 BY_GAP = "the assumed gap of 1 nm between touching cells"
 

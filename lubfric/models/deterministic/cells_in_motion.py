@@ -24,26 +24,26 @@ NARROW_GAPS = (1.4, 0.35)
 
 # Part of the effect of the narrow gaps by which single contacts differ from it, at 95 % [-]. On 12 of 13 Gaussian
 # strips where ln f changes by more than 0.1 with ln of the film the root mean square is 0.42, narrow strips' own
-# scatter included; 2.7 on one. Fitted so.
+# scatter included; 2.7 on one.
 SCATTER_BY_CELLS = 0.7
 
 # Relative error of f, at 95 %, that does not depend on the boundary film, over (cell along x/correlation length)² [-]:
 # by steps of second order, and by steps along the lubricant, of third order. Nine contacts that depend on it little
-# differ by 0.1 to 0.9 %. Fitted so.
+# differ by 0.1 to 0.9 %.
 ALONG_X = (0.3, 0.08)
 
 # Relative error of f, at 95 %, that does not depend on the boundary film, over (cell along y/correlation length)² [-]:
-# nine contacts with names differ by 0.02 to 0.4 %. Fitted so.
+# nine contacts with names differ by 0.02 to 0.4 %.
 ALONG_Y = 0.016
 
 # Relative error of f, at 95 %, because the pressure has few cells, over (cell along x/Hertz half-width) to the power of
 # the order of the steps [-]: of second order, and along the lubricant of third. Between 6 and 12 cells in the
-# half-width f of a separated contact changes by 3.2 %, between 7 and 14 by 2.7 %. Fitted so.
+# half-width f of a separated contact changes by 3.2 %, between 7 and 14 by 2.7 %.
 IN_HALF_WIDTH = (3.0, 14.0)
 
 # Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to
 # cell (`is_smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected.
-# On five exponential surfaces f rises by 5 to 20 %, by 0.4 to 1.3 of the change of ln f with ln of the film. Fitted so.
+# On five exponential surfaces f rises by 5 to 20 %, by 0.4 to 1.3 of the change of ln f with ln of the film.
 UNSMOOTH = 5.0
 UNSMOOTH_NARROWED = 5.5
 

@@ -1,5 +1,8 @@
 """What a point by the deterministic model will take, from closed forms and the counted work of its steps
-(`counted_work`). Nothing is solved."""
+(`counted_work`). Nothing is solved.
+
+Constants that name no other source are measured on the points of ``python -m verification.campaigns.estimates``.
+"""
 
 import math
 
@@ -27,17 +30,16 @@ from .problem import are_soft, reach
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
 from .strip_on_two_grids import coarsening_at_rest, patch_coarsening_to_look_at, sample_coarsening_of
 
-# Newton steps on cells half as long, which begin at the solution on longer ones [-]. Measured on the points of `python
-# -m verification.campaigns.estimates`, as all numbers below that name no other source.
+# Newton steps on cells half as long, which begin at the solution on longer ones [-].
 FINER_STEPS = 6
 
 # Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so
 # many. A thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A
-# roller of 1 GPa takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq. Measured so.
+# roller of 1 GPa takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
 FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 
 # Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
-# the points. Measured there.
+# the points.
 LAST_STEPS = 10
 
 # Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
@@ -49,15 +51,15 @@ ROUGH_WORK = 3.5
 ON_LONGER_CELLS = 0.3
 
 # Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11
-# below and none of 14 above it. Measured there.
+# below and none of 14 above it.
 ENOUGH_ALONE = 0.3
 
 # Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these
-# points. Measured there.
+# points.
 PIECES_OF_MORE_STRIPS = 3.0
 
 # Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9
-# of these points, and all others, solve one. Measured there.
+# of these points, and all others, solve one.
 PIECES_OF_RUBBED = 0.25
 
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice: it moves estimates alone.
@@ -68,20 +70,19 @@ RUBBED_FILM = 0.25
 RUBBED_FILM_OF_SHORT_STRIP = 0.1
 
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
-# Measured there.
 OF_SLOPE = 0.5
 
-# Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-]. Measured there.
+# Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].
 LAST_LEVEL_OF_ONE_STRIP = 0.2
 
-# The same where more strips are solved [-]. Measured there.
+# The same where more strips are solved [-].
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
 
 # Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the
-# same, most of all where the arrays are small. Measured so.
+# same, most of all where the arrays are small.
 AT_REST_ON_LONG_CELLS = 0.9
 
 # Processor time of moving roughness over its counted work [-]: .44 to .56 in five jobs of
@@ -115,7 +116,7 @@ MIXED_FILMS = (0.3, 1.7)
 # the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
 MAY_BE_HALVED = 1.2
 
-# Scatter of the difference between the models over that of f [-]. Measured there.
+# Scatter of the difference between the models over that of f [-].
 UNLIKE = 0.65
 
 # Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_expected_strips`) of one

@@ -10,7 +10,7 @@ from ..shared import peak_hertz_pressure
 
 # Change of f by the load that another hardness moves, at most, over that by the mean of the contact [-]. On a strip at
 # rest and on one in motion, of which hardnesses 30 % lower moved .4 to 16 % of the load, solved changes were .2 to 1.6
-# times it. Measured so, with a margin.
+# times it. The value measured, with a margin.
 REDISTRIBUTED = 2.0
 
 # Such a change over f, above which that hardness is solved [-]. A convention.

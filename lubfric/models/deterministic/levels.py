@@ -93,8 +93,7 @@ STRIPS_GROWTH = (4.0, 2.0)
 # Factor on the strips that an error needs, and least growth [-] (`strips_for_error`). A choice, as in `STRIPS_GROWTH`.
 STRIPS_SPARE = (1.1, 1.2)
 
-# Work of a strip on these cells over that on both lengths before [-]: 2.3 on a needle roller at 2 m/s, after those.
-# Measured there.
+# Work of a strip on these cells over that on both lengths before [-]: measured 2.3 on a needle roller at 2 m/s, after those.
 HALVED_WORK = 2.5
 
 # Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges. A choice:

@@ -48,7 +48,6 @@ SMALLEST_DIAGONAL = 1e-12
 # lubricant omits it [-]. A roller of 1 GPa (162 x 64 cells) with 0, 0.01, 0.03, 0.1 takes 285, 291, 289, 510 Newton
 # steps, and an LU 11.4, 10.6, 8.1, 4.6 ms; with 0.03 light, needle and gear contacts take as many steps as with 0, and
 # 2 to 7 % fewer iterations of GMRES. At rest, where lubricant flows with U, 0.01 takes up to three times the steps.
-# Chosen by these.
 OMITTED_COEFFICIENT = 0.03
 
 # Iterations of GMRES, after which it begins anew [-]: a bound of its memory. Half and twice change nothing; some 10 are
@@ -62,11 +61,11 @@ CYCLES = 3
 # choice, near the smallest number of double precision.
 SMALLEST_PIVOT = 1e-300
 
-# Columns that are eliminated together [-]: 1, 2, 4, 8 take 10.4, 10.5, 11.0, 11.6 ms on 10,368 cells. Chosen by these.
+# Columns that are eliminated together [-]: 1, 2, 4, 8 take 10.4, 10.5, 11.0, 11.6 ms on 10,368 cells.
 PANEL = 1
 
 # Cells that nested dissection does not cut again [-]: with 6, 12, 24, 48, 96 the LU of a five-point stencil on 162 x 64
-# cells takes 8.8, 9.1, 9.3, 10.6, 12.3 ms. Chosen by these.
+# cells takes 8.8, 9.1, 9.3, 10.6, 12.3 ms.
 UNCUT_CELLS = 6
 
 

@@ -54,15 +54,15 @@ MOST_NEWTON_STEPS = 40
 # Newton steps from the moved state, at most, where the last step that began there was not solved [-]. Four contacts
 # with Λ of .2 to .7, of which each such step took some 50 in vain and 16 in parts, take 26, 20, 7 and 18 s with
 # `MOST_NEWTON_STEPS` each time and a start from the state as it was between them, and 16, 9, 5 and 9 s with this and
-# `STEPS_IN_PARTS`. Chosen by these.
+# `STEPS_IN_PARTS`.
 MOST_NEWTON_STEPS_AGAIN = 10
 
 # Steps that are begun in parts after one that had to be [-], before the moved state is tried again. With none these
-# contacts take 21, 10, 5 and 9 s. Chosen by these.
+# contacts take 21, 10, 5 and 9 s.
 STEPS_IN_PARTS = 4
 
 # Euler steps into which a step in time is divided that Newton's method does not solve [-]. With 2 and 3 these contacts
-# take 12, 8, 7, 9 and 14, 9, 7, 9 s, but with 2 some steps fail. Chosen by these.
+# take 12, 8, 7, 9 and 14, 9, 7, 9 s, but with 2 some steps fail.
 EULER_STEPS = 4
 
 # Orders of a step along the lubricant [-]: the first, and those that follow where it is not solved. On an exponential
@@ -75,12 +75,12 @@ SMOOTHED_HALF_WIDTHS = 0.4
 
 # Part of the last change of the pressure with the roughness that a step begins with [-]. With none a needle roller at
 # .05 m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %. Of sixteen random rolling
-# contacts all of it takes 1 % more, some with much sliding 20 to 30 %. Chosen by these.
+# contacts all of it takes 1 % more, some with much sliding 20 to 30 %.
 EXTRAPOLATED = 0.5
 
 # That part where all roughness moves by the same cells (`SAME_CELLS`) [-]. A needle roller with a slip of 1 % at .05, 2
 # and 5 m/s takes 18, 11 and 5 % fewer Newton steps than with a half, ten random contacts with a slide-roll ratio of .05
-# 6 %; with one of .3, 1 %. Chosen by these.
+# 6 %; with one of .3, 1 %.
 EXTRAPOLATED_TOGETHER = 1.0
 
 # Cells by which roughness moves more or less in a step than by the complete cells of a start, at most, for that [-]. A
@@ -89,13 +89,13 @@ SAME_CELLS = 0.05
 
 # Steps in time after a start from rest that begin without a part of the last change [-]: the change from rest to motion
 # does not go on. Without them the first steps of random contacts took 46, 29, 12, 11 Newton steps instead of 20, 7, 7,
-# 7, those of a needle roller 38 and 59 instead of 19 and 13. Chosen by these.
+# 7, those of a needle roller 38 and 59 instead of 19 and 13.
 STEPS_FROM_REST = 2
 
 # Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at
 # unlike speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3.
 # With 0.1, 0.3, 0.5 a gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six other rolling
-# contacts 68, 58, 60 s; f moves by up to 0.6, 1.5 %. Chosen by these.
+# contacts 68, 58, 60 s; f moves by up to 0.6, 1.5 %.
 LEAST_PART_IN_MOTION = 0.3
 
 # Relative difference up to which the lubricant passes one cell in a step [-]. A convention, far above rounding.

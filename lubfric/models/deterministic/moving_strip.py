@@ -46,8 +46,8 @@ CELLS_FOR_LOOSE_STEPS = 8
 # verification/campaigns/moving_coverage.
 FACTORISATIONS_IN_A_STEP = 4.0
 
-# GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the contacts of
-# `FACTORISATIONS_IN_A_STEP`. Measured there.
+# GMRES iterations in a step in time [-], for the estimate of the work: measured 23 to 34 on the contacts of
+# `FACTORISATIONS_IN_A_STEP`.
 KRYLOV_IN_A_STEP = 25.0
 
 # Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
@@ -159,7 +159,7 @@ class ExpectedCourse:
 # On two lengths of cells (verification/campaigns/moving_coverage): 3 to 6 steps on the contacts of
 # `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at
 # 0.01 m/s); bearing 2 to 3 half-widths, gear flank 6, needle roller 10; 0.49 (gear flank) and 0.52 (needle roller) on
-# longer cells. Measured there.
+# longer cells.
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
 # On the long cells of the quick answer: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random

@@ -31,7 +31,7 @@ STEP_HALVINGS = 10
 
 # Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more
 # work, twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes
-# 11, 12, 12, 11, 13, 16, and 10 takes up to 35. Chosen by these.
+# 11, 12, 12, 11, 13, 16, and 10 takes up to 35.
 RESIDUAL_GROWTH = 1.05
 
 # Factor by which the residual may grow in a step as short as `LEAST_STEP_PART`, or at rest by cells that change their
@@ -60,7 +60,7 @@ TIME_STEP_SHRINKAGE = 0.25
 WAIT = 3
 
 # Factors of a step in time after one that was solved [-]: after at most `EASY_STEPS` Newton steps, and after more.
-# Half, so that they never grow, takes 39 % less work on a soft film, twice 24 % more. Chosen by these.
+# Halved, so that they never grow, takes 39 % less work on a soft film, twice 24 % more.
 GROW = (2.0, 1.5)
 
 # Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film;

@@ -53,7 +53,7 @@ FILM_INLET = 1.5
 FILM_OUTLET = 0.8
 
 # Pressure-viscosity coefficient times Hertz pressure below which pressure thickens the lubricant little: no strip above
-# 0.7 took long by Newton's method alone, and one of 0.7 did at 19 GPa. Chosen by these.
+# 0.7 took long by Newton's method alone, and one of 0.7 did at 19 GPa.
 ISOVISCOUS = 1.0
 
 MOST_GRID_CELLS = 2**20  # cells; at most: a choice, for memory

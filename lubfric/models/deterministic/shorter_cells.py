@@ -77,7 +77,7 @@ FIXED_FILM_RATIO = 2.0
 
 # Relative change of f by twice the boundary film [-] above which pieces are solved at the speed of the point itself: a
 # soft roller whose film is just thicker (f 0.0037, 0.013 by twice) was corrected to 0.0111 by pieces at half the speed,
-# whose film is not. Chosen by it.
+# whose film is not.
 SPEED_MATTERS = 1.0
 
 # Part of the work that a point has left, which its pieces may take [-]: the rest is for the ends of input

@@ -71,32 +71,31 @@ START_RUPTURE = 0.55
 # Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`)
 # [-]: a film under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12,
 # 15, 14, 14, 16, 28 Newton steps with all of it, and 11, 11, 11, 10, 14, 20 with a half; light contacts take as many
-# with a half as with all. Chosen by these.
+# with a half as with all.
 LIFT = 0.5
 
 # Steps in which the residual has to fall from the dry contact of soft bodies [-]. Of a thin film it does not, from the
 # dry contact and from faster ones: a roller of E' 19 GPa and film/Sq .05 took 160 factorisations, of which 70 led
-# nowhere. Chosen by it.
+# nowhere.
 SOFT_PATIENCE = 8
 
 # Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would
 # flow in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge in 16 or 23 steps from some of them
-# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`. Chosen by these.
+# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
 # Parts of the expected film by which the dry contact is lifted where every other way has failed [-]. A bearing of 10 mm
 # radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on 48 cells across, has no solution from .1, .33, .5, .7
-# and 1, and one after 12 steps from .2, after 41 from 2. Chosen by it.
+# and 1, and one after 12 steps from .2, after 41 from 2.
 LAST_LIFTS = (0.2, 2.0)
 
 # Asperity load ratio [-], from which on a finer grid does not start from interpolated pressure: contacts are too sharp
 # for that. Levels of a roller of 1 GPa with 0.011 and 0.023 take 16 and 10 Newton steps so, and 10 from sharp contacts.
-# Chosen by these.
 SHARP_LOAD_RATIO = 0.02
 
 # Residuals over those of the dry start, from which on an interpolated start is not taken [-]. A roller of 1 GPa at 1
 # m/s took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the dry contact plus the
-# change by the film (`_corrected_dry_start`). Chosen by it.
+# change by the film (`_corrected_dry_start`).
 WORSE = 2.0
 
 # Asperity load ratio [-], up to which the change by the film on longer cells is added to the dry contact of shorter
@@ -108,7 +107,6 @@ WET_LOAD_RATIO = 0.1
 # Part of the pressure of the film between the asperity contacts of the longer cells that a start from the dry contact
 # has [-]. Last levels of a roller of 1 GPa at 0.3, 0.1, 0.03 m/s take 17, 27, 81 Newton steps from the dry contact with
 # a half of Moes' film, 15, 21, 33 with 0, 12, 15, 21 with 0.12, 13, 14, 36 with 0.25, 21 (not solved), 13, 45 with 0.5.
-# Chosen by these.
 FILM_PRESSURE_PART = 0.125
 
 # Part of a Newton step [-], below which a `_corrected_dry_start` is given up: the solution follows by steps that are

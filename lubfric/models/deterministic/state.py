@@ -29,7 +29,7 @@ MOST_EXTRAPOLATED = 0.5
 # Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
 # ruptures spares its neighbours, and one that ruptured in vain fills late. A roller of 1 GPa takes 2.9 Newton steps in
 # a step in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1, 2.4, 2.9, 4.4. At rest at 0.03 m/s a
-# grid of 251 x 240 cells takes 72 with 0, and 28 with 0.5. Chosen by these.
+# grid of 251 x 240 cells takes 72 with 0, and 28 with 0.5.
 STRONG_SUCTION = 0.5
 
 # Suction of a touching cell over U times the floor over dx, below which it keeps touching [-]. A choice: with 0,

@@ -1,5 +1,8 @@
 """What a point by load sharing will take, from closed forms: whether asperities touch, how many strips are solved, and
-how long that takes. Nothing is solved."""
+how long that takes. Nothing is solved.
+
+Constants that name no other source are measured on the points of ``python -m verification.campaigns.estimates``.
+"""
 
 import math
 
@@ -18,13 +21,11 @@ from .error_of_eq8 import load_sharing_error
 # `python -m verification.campaigns.estimates`.
 BALANCED_FILM = 3e-3
 
-# Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there. Measured
-# there.
+# Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there.
 CELL_SECONDS = 1.0e-7
 
 # Factor on that of strips and pieces, less one, over the flattening of the bodies in Sq and the part of the gap that no
 # film fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
-# Measured there.
 TIMES_BY_FLATTENING = 0.17
 
 # The same where the heights are not smooth over a cell, over that flattening alone [-]: iterations of a contact over the usual
@@ -32,55 +33,52 @@ TIMES_BY_FLATTENING = 0.17
 TIMES_BY_FLATTENING_IF_ROUGH = 0.3
 
 # Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
-# Measured there.
 PIECE_SECONDS = 1.5e-7
 
-# Processor time [s] of a cell of the map of a piece on native cells, which is generated: .7 to 1.8e-7 there. Measured
-# there.
+# Processor time [s] of a cell of the map of a piece on native cells, which is generated: .7 to 1.8e-7 there.
 GENERATED_SECONDS = 1.1e-7
 
 # Films and contacts of the balance of a point that starts from a reference point, and of those of its response: 3 to 9
-# there. Measured there.
+# there.
 SOLVES = 6
 
 # Films and contacts of the balance on more strips, which start from fewer: 8 to 10 there, and half of the points that
-# are expected to need them do not. Measured there.
+# are expected to need them do not.
 SOLVES_ON_MORE = 5
 
-# Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there. Measured there.
+# Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
 SOLVES_OF_REFERENCE = 7
 
 # Sizes of cells on which a piece is solved, at least. It follows from `cell_effect`: one change of f needs two.
 FEWEST_CELLS = 2
 
 # Points, of all, that solve pieces at a load of their own, because the reference point is too far from it: 25 of 55
-# there. Measured there.
+# there.
 OWN_PIECES = 0.5
 
-# Processor time [s] of the contact on a map that is solved whole, however small. Measured there.
+# Processor time [s] of the contact on a map that is solved whole, however small.
 PATCH_SECONDS = 0.03
 
-# Processor time [s] of each cell of such a map. Measured there.
+# Processor time [s] of each cell of such a map.
 MAP_SECONDS = 4e-8
 
-# Processor time [s] of what else a point on strips takes: .009 to .03 s there. Measured there.
+# Processor time [s] of what else a point on strips takes: .009 to .03 s there.
 POINT_SECONDS = 0.012
 
-# Processor time [s] of the films of a point without heat. Measured there.
+# Processor time [s] of the films of a point without heat.
 FILM_SECONDS = 0.015
 
-# Factor on that with heat. Measured there.
+# Factor on that with heat.
 HOT = 5.0
 
 # Factor on the time where the heights are not smooth over a cell and the film carries a part of the load (`SHARED`),
 # because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than
-# `FEW_CELLS_OF_LENGTH`. Measured so.
+# `FEW_CELLS_OF_LENGTH`.
 ROUGH_TIMES = 1.5
 ROUGH_TIMES_ON_LONG_CELLS = 6.0
 
 # Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones
 # may follow. Four random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
-# Measured so.
 REFINED = 1.3
 
 # Cells in a correlation length along x below which cells are long. A choice: it moves estimates alone.
@@ -98,7 +96,7 @@ SEPARATED = 2.5
 
 # The same between bodies that flatten by less than Sq, whose highest summits touch below a thicker film: the
 # deterministic model solves 16, 24, 1 strips at 3.3, 3.7, 4.5, load sharing in curves of those campaigns 9 to 64 at 4.5
-# and 1 at 5.5. Fitted so.
+# and 1 at 5.5.
 SEPARATED_IF_ROUND = 4.0
 
 # Part of the film of the whole load by which it is wider, about. A choice, for an estimate.

@@ -47,7 +47,7 @@ CELLS_IN_MOTION = (2.0, 1.25)
 CELLS_OF_THIN_FILM = 3.0
 
 # Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width
-# where f depends on the film is 21 instead of 18 %, with .4 more. Chosen by these, measured on the contacts of
+# where f depends on the film is 21 instead of 18 %, with .4 more; on the contacts of
 # `verification.campaigns.calibration`.
 THIN_BY_FILM = 0.05
 
@@ -57,7 +57,7 @@ CELLS_OF_REFERENCES = (4.0, 2.5)
 
 # Distance of f at rest from f_b, over f_b, below which f hangs the less on the boundary film the nearer it is [-]: with
 # ten times as much the half-width where it does is 20 instead of 18 %, with none contacts whose asperities carry the
-# load take twice as long. Chosen by these, measured on the contacts of `verification.campaigns.calibration`.
+# load take twice as long; on the contacts of `verification.campaigns.calibration`.
 NEAR_AT_REST = 0.03
 
 # Effort in the place of `TIGHT`: steps end at ten times its residual, which goes into the next step. f of four rollers

@@ -51,8 +51,8 @@ from .strips_on_long_cells import (
     solve_on_long_cells,
 )
 
-# Strips at rest, about, of points whose first one has a small sampling error: one or two of 11 random points. Measured
-# so.
+# Strips at rest, about, of points whose first one has a small sampling error: one or two in 11 random points of
+# `python -m verification.campaigns.estimates`.
 USUAL_STRIPS = 1.5
 
 # Expected standard error of f by one strip, over that which the first strips by load sharing leave times the root of

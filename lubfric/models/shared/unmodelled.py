@@ -32,7 +32,7 @@ WARMER = 10.0
 # f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
 
-# Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s. Measured there.
+# Mean gap of a contact that carries most of the load [Sq], about: measured 1.67 in the scene "paper" at 1 mm/s.
 GAP_IN_CONTACT = 1.6
 
 # Film over Sq from which the motion of roughness has little effect. A choice: the lambda ratio of full-film
@@ -66,7 +66,7 @@ GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f d
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
-# Chosen by these, with a margin.
+# A margin is added.
 POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
 
 # Times the guess of mu between which that of a result may lie. A choice: a factor of 2.
