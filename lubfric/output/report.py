@@ -19,9 +19,9 @@ from ..models.shared import (
     ExpectedEffect,
     Prepared,
     UnmodelledEffect,
+    alpha_in_words,
     at_values,
     change_in_words,
-    changes_by_alpha,
     is_note_text,
     percent,
     percent_of_sides,
@@ -213,12 +213,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
-    by_alpha = changes_by_alpha(point.unmodelled_effects)
-    if by_alpha is not None:
-        sentences.append(
-            "The pressure-viscosity coefficient is an estimate, and the interval has no error of it: those of measured oils "
-            f"change f by {100 * by_alpha[0]:+z.2g} to {100 * by_alpha[1]:+z.2g} %, by closed forms."
-        )
+    sentences += filter(None, [alpha_in_words(point.unmodelled_effects)])
     if point.decision.basis:
         sentences.append(f"This point is by the {point.decision.basis}.")
         sentences += _change_of_model(curve)

@@ -15,6 +15,8 @@ from ..estimate import PARTS
 from ..models.shared import (
     MODEL_ERROR,
     NUMERICAL_ERROR,
+    UnmodelledEffect,
+    alpha_in_words,
     gathered_texts,
     half_width_of_error,
     is_note_text,
@@ -125,7 +127,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         warnings=(_list(warnings) if warnings else "<p>No checked limit of the model is exceeded.</p>")
         + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
         about=about,
-        table=_table(result, rows) + _details(result, rows) + _effects_at_largest(result),
+        table=_table(result, rows) + _details(result, rows) + _effects_table(result),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
         inputs=common_inputs(result),
         sources=_list(result.cite().splitlines()),
@@ -312,20 +314,28 @@ def _scene_of_each(result: StudyResult) -> list[Scene]:
     return [curves[i // each] for i in np.flatnonzero(result.status.ravel() != UNUSED)]
 
 
-def _effects_at_largest(result: StudyResult) -> str:
-    """Return the table of the effects that are not modelled, where |f| is largest; "" where no f is known."""
+def _effects_at_largest(result: StudyResult) -> tuple[int, tuple[UnmodelledEffect, ...]]:
+    """Return the row of `columns_of_study` where |f| is largest, and the effects that are not modelled there; none where no f
+    is known."""
     columns = columns_of_study(result)
     f = np.abs(columns["coefficient"])
     if not np.isfinite(f).any():
-        return ""
+        return 0, ()
     i = int(np.nanargmax(f))
     scene = _scene_of_each(result)[i]
     numbers = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
     ratio = float(columns["film_to_roughness_ratio"][i])
     sq = numbers["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
     known = numbers["boundary_force"] / scene.bodies.load, float(f[i])
-    effects = unmodelled_effects(scene, sq, numbers["speed"], known, includes_motion=may_move_roughness(scene))
-    return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {i + 1}, of the largest f')}"
+    return i, unmodelled_effects(scene, sq, numbers["speed"], known, includes_motion=may_move_roughness(scene))
+
+
+def _effects_table(result: StudyResult) -> str:
+    """Return the table of the effects that are not modelled, where |f| is largest; "" where no f is known."""
+    if not np.isfinite(result["coefficient"]).any():
+        return ""
+    (row, effects) = _effects_at_largest(result)
+    return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {row + 1}, of the largest f')}"
 
 
 def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int) -> str:
@@ -362,7 +372,8 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
-    return [*rows, *_budget_line(result), *_main_effects_line(result)]
+    by_alpha = alpha_in_words(_effects_at_largest(result)[1], "the largest f")
+    return [*rows, *_budget_line(result), *filter(None, [by_alpha]), *_main_effects_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:

@@ -7,7 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.shared import change_in_words, effect_in_words, expected_effects, unmodelled_effects
+from lubfric.models.shared import alpha_in_words, change_in_words, effect_in_words, expected_effects, unmodelled_effects
 from lubfric.output import describe_scene
 
 ROLLER = lubfric.load_scene(
@@ -28,6 +28,25 @@ SQ = ROLLER.surface.sq
 def test_a_large_change_is_reported_without_powers_of_ten():
     words = [effect_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
     assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
+
+
+@pytest.mark.parametrize(
+    "low, high, words",
+    [
+        (0.035, 0.062, "the lowest of measured oils changes f by +3.5 %, the highest by +6.2 %: both raise it."),
+        (-0.02, -0.062, "the lowest of measured oils changes f by -2 %, the highest by -6.2 %: both lower it."),
+        (-0.67, 0.1, "the lowest of measured oils changes f by -67 %, the highest by +10 %."),
+    ],
+)
+def test_both_ends_of_an_estimated_pressure_viscosity_coefficient_are_stated(low, high, words):
+    """The words are of the effects themselves, which are sorted by size; an end below the tolerance is none of them."""
+    effects = unmodelled_effects(ROLLER, SQ, 1.0)
+    changes = {"the lowest of": low, "the highest of": high}
+    ends = [(what, next((c for end, c in changes.items() if end in what), c), advice) for what, c, advice in effects]
+    assert alpha_in_words(ends).endswith(words)
+    without = [effect for effect in ends if "the lowest of" not in effect[0]]
+    assert f"changes f by less than numerics.tolerance, the highest by {100 * high:+.2g} %." in alpha_in_words(without)
+    assert alpha_in_words([effect for effect in without if "the highest of" not in effect[0]]) == ""
 
 
 def told(lacks, word):

@@ -295,6 +295,19 @@ def test_the_mean_friction_is_that_of_its_magnitude(points):
     assert float(re.search(r"is ([0-9.]*[0-9])", text)[1]) == pytest.approx(magnitude, rel=0.02)
 
 
+@pytest.mark.parametrize("alpha, is_estimate", [(None, True), (2e-8, False)])
+def test_the_answer_of_a_study_names_an_estimated_pressure_viscosity_coefficient(alpha, is_estimate):
+    """With the changes by measured oils that the curve has at its largest f, as the report of a run."""
+    oil = {"viscosity": None, "pressure_viscosity_coefficient": alpha, "grade": "ISO VG 68", "viscosity_index": 95}
+    scene = SCENE.with_(lubricant=oil | {"temperature": "40 °C"})
+    text = " ".join(answer_lines(lubfric.study(scene, {"bodies.load": [scene.bodies.load]}, [0.5])))
+    assert ("The pressure-viscosity coefficient is an estimate" in text) == is_estimate
+    if is_estimate:
+        effects = lubfric.friction(scene, 0.5).unmodelled_effects
+        by_alpha = [change for what, change, _ in effects if "measured oils" in what]
+        assert by_alpha and all(f"by {100 * change:+.2g} %" in text for change in by_alpha)
+
+
 def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
     """Point 2 of 3 rolls without slip: no line joins it to the others, of f and of the power loss, but of the load."""
     for quantity in ("coefficient", "power_loss"):

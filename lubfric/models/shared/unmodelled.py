@@ -61,6 +61,9 @@ REYNOLDS_RUPTURE = 0.475
 LEAST_ASPERITY_PART = 0.1
 
 
+# Ends of the range of the pressure-viscosity coefficients of measured oils.
+ENDS_OF_ALPHA = ("lowest", "highest")
+
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
 GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this"
 
@@ -99,11 +102,26 @@ def unmodelled_effects(
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
 
 
-def changes_by_alpha(effects: Sequence[UnmodelledEffect]) -> tuple[float, float] | None:
-    """Return the lowest and the highest change of f, relative, by the pressure-viscosity coefficients of measured oils, of the
-    ``effects`` that are not modelled; None where the coefficient is given, or they change f by less than the tolerance."""
-    changes = [change for _, change, advice in effects if advice == GIVE_ALPHA and math.isfinite(change)]
-    return (min(0.0, *changes), max(0.0, *changes)) if changes else None
+def alpha_in_words(effects: Sequence[UnmodelledEffect], of_f: str = "f") -> str:
+    """Return in a sentence how the lowest and the highest pressure-viscosity coefficient of measured oils change ``of_f``, by
+    the ``effects`` that are not modelled; "" where the coefficient is given, or both change f by less than the tolerance."""
+    changes = {
+        end: change
+        for end in ENDS_OF_ALPHA
+        for what, change, advice in effects
+        if advice == GIVE_ALPHA and f"the {end} of" in what and math.isfinite(change)
+    }
+    if not changes:
+        return ""
+    (low, high) = (
+        change_in_words(changes[end]) if end in changes else "less than numerics.tolerance" for end in ENDS_OF_ALPHA
+    )
+    senses = {math.copysign(1.0, change) for change in changes.values()}
+    both = f": both {'raise' if max(senses) > 0 else 'lower'} it" if len(changes) == 2 and len(senses) == 1 else ""
+    return (
+        "The pressure-viscosity coefficient is an estimate, and the interval has no error of it: by closed forms the lowest of "
+        f"measured oils changes {of_f} by {low}, the highest by {high}{both}."
+    )
 
 
 def expected_effects(
@@ -234,7 +252,7 @@ def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
         return {}
     return {
         f"{1e9 * end:.3g} 1/GPa, the {word}": scene.with_(lubricant={"pressure_viscosity_coefficient": end})
-        for word, end in {"lowest": alpha.low, "highest": alpha.high}.items()
+        for word, end in zip(ENDS_OF_ALPHA, (alpha.low, alpha.high))
     }
 
 
