@@ -26,8 +26,8 @@ from ..models.shared import (
     unmodelled_effects,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
-from ..samples import requests_patch
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, inputs_not_given
+from ..samples import is_measured, requests_patch
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, has_moving_roughness, inputs_not_given
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
@@ -48,9 +48,6 @@ from .report import effects_table, names_of_inputs, picture, shortfalls, style_s
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
-
-# Why the interval of f is not known where a scene requests a patch.
-NO_SAMPLING_ERROR = "a single patch has no sampling error; numerics.sampling = 'strips' gives it"
 
 # Heading of the column of the asperity load ratio.
 ASPERITY_LOAD_RATIO = "asperity load ratio F_C/F_T"
@@ -108,10 +105,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         if rows == size
         else f"{rows} of {size} points; study.csv has all of them."
     )
-    unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
-    if unknown:
-        about += f" The interval of f is not known at {counted(unknown, 'points')}"
-        about += f": {NO_SAMPLING_ERROR}." if requests_patch(result.plan.scene) else "."
+    about += why_no_intervals(result)
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),
         style=style_sheet(),
@@ -133,6 +127,46 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         sources=_list(result.cite().splitlines()),
     )
     return page.encode()
+
+
+def why_no_intervals(result: StudyResult) -> str:
+    """Return at which points of a study the interval of f is not known, and, of a patch, how long it is there and at the other
+    points; "" where all intervals are known."""
+    columns = columns_of_study(result)
+    solved = np.isfinite(columns["coefficient"])
+    unknown = solved & np.isnan(columns["uncertainty_low"])
+    if not unknown.any():
+        return ""
+    known = solved & ~unknown
+    text = f" The interval of f is not known at {counted(int(unknown.sum()), 'points')}"
+    apart = []
+    for name in result.coords:
+        here, there = (list(dict.fromkeys(columns[name][where].tolist())) for where in (unknown, known))
+        if known.any() and not set(here) & set(there):
+            values = ", ".join(worded_value(name, value) if isinstance(value, float) else str(value) for value in here)
+            apart.append(f"{COLUMNS[name].label if name in COLUMNS else name} {values}")
+    text += f" ({'; '.join(apart)})" if apart else ""
+    scene = result.plan.scene
+    if not requests_patch(scene):
+        return f"{text}."
+    shape = scene.contact.shape
+    spacing = scene.contact.spacing
+    varies = any(name.startswith("contact") for name in result.coords)
+    text += ": the single patch is too short there for its sampling error"
+    if has_moving_roughness(scene) and known.any() and shape is not None and spacing is not None and not varies:
+        length = shape[0] * float(np.broadcast_to(spacing, 2)[0])
+        widths = length / np.array([each.bodies.half_width for each in _scene_of_each(result)])
+        text += (
+            f". It is {_ends(widths[unknown])} half-widths of the Hertz strip long along the motion there, and "
+            f"{_ends(widths[known])} at the points with an interval"
+        )
+    way = "A larger map" if is_measured(scene) else "numerics.sampling = 'strips' or a larger contact.shape"
+    return f"{text}. {way} gives an interval; 'lubfric run' of such a point states how much is missing."
+
+
+def _ends(values: np.ndarray) -> str:
+    """Return the ends of the range of ``values`` as text."""
+    return " to ".join(dict.fromkeys(f"{end:.3g}" for end in (values.min(), values.max())))
 
 
 def model_error_above_target(result: StudyResult) -> list[str]:

@@ -20,12 +20,14 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
+    least_blocks,
     levels,
     mean_over_blocks,
     sample_coarsening_of,
     solve_moving_strip,
     strip_on_two_grids,
 )
+from lubfric.models.shared import why_too_few_blocks
 from lubfric.surface import Surface, generate_surface
 
 LENGTH = 10e-6  # m: correlation length
@@ -264,3 +266,29 @@ def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():
     assert cell(scene) == pytest.approx((4e-6, 8e-6)) and cell(given) == pytest.approx((2e-6, 2e-6))
     at_rest = given.with_(motion={"slide_roll_ratio": 2.0})
     assert cell(at_rest) == pytest.approx((4e-6, 4e-6))
+
+
+@pytest.mark.parametrize("moments, places", [(62, 62), (62, 70), (85, 62), (92, 62), (120, 128), (25, 130), (25, 150)])
+@pytest.mark.parametrize("has_control", [True, False])
+def test_a_short_moving_sample_says_of_which_blocks_it_has_too_few(moments, places, has_control):
+    """A block is 3 half-widths long, of 0.1 each moment, and 4 correlation lengths wide, of 5 cells each. Of so many as are
+    stated the error is known, of fewer it is not."""
+    known = SummitControl(wave=WAVE, threshold=1.0, mean=0.0, scatter=0.0, count=48)
+    control = known if has_control else None
+    sample = sample_of(0, moments, places)
+    blocks = (max(moments // 30, 1), max(places // 20, 1))
+    is_known = mean_over_blocks([sample], "friction", LENGTH, control).error.freedom > 0
+    assert is_known == (math.prod(blocks) >= least_blocks(control))
+    assert sample.block_counts(LENGTH) == blocks
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+    words = why_too_few_blocks(
+        scene,
+        lubfric.prepare(scene).sample,
+        blocks=blocks,
+        needed=least_blocks(control),
+        size=(0.1 * moments, places / 5),
+        size_of_block=(3.0, 4.0),
+    )
+    count = f"{math.prod(blocks)} nearly independent blocks ({blocks[0]} along the motion x {blocks[1]} along y)"
+    assert count in words and f"takes {7 if has_control else 6}" in words and "omit numerics.sampling, or give" in words
+    assert f"{0.1 * moments:.3g} half-widths" in words and f"{places / 5:.3g} correlation lengths wide" in words

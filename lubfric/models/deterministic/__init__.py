@@ -43,4 +43,4 @@ from .strip_on_two_grids import (
     surface_and_map_coarsening,
 )
 from .summits import SummitControl, attenuated, control_of
-from .time_and_place import TimeAndPlace, mean_over_blocks
+from .time_and_place import TimeAndPlace, least_blocks, mean_over_blocks

@@ -39,17 +39,19 @@ from ..shared import (
     violations_by_thickness,
     way_to_shorter_cells,
     why_sample_too_short,
+    why_too_few_blocks,
 )
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
-from .levels import Levels, mean
+from .levels import Levels, mean, samples_over_time
 from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import map_of_contact, map_of_strip
+from .rough_bodies import map_of_contact, map_of_strip, summit_control
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, patch_coarsening_to_look_at, sample_coarsening_of
+from .time_and_place import PLACE_BLOCK, TIME_BLOCK, least_blocks
 
 BY_PLACES = "the difference of the models from place to place"
 LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
@@ -156,7 +158,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         reasons=reasons,
         length=levels.length,
         notes=(
-            *_sample_notes(prepared, sampling_error, levels.length),
+            *_sample_notes(prepared, sampling_error, levels),
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
             *([TOO_MANY_CELLS] if levels.has_too_many_cells else []),
@@ -360,12 +362,31 @@ def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     return f"{SMALLER_PATCH if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE} reduces it"
 
 
-def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:
-    """Return what a reader should know of the sampling ``error`` of strips of this ``length`` [m]."""
+def _why_no_sampling_error(prepared: Prepared, levels: Levels) -> str:
+    """Return why the sampling error of the strips of ``levels`` is not known, and what to change."""
+    scene = prepared.scene
     sample = prepared.sample
+    samples = samples_over_time(levels.pairs)
+    width = sample.correlation_lengths[1]
+    if not samples:
+        return why_sample_too_short(scene, levels.length / width, sample)
+    (first, *_) = samples
+    (moments, places) = first.friction.shape
+    return why_too_few_blocks(
+        scene,
+        sample,
+        blocks=first.block_counts(width),
+        needed=least_blocks(summit_control(prepared)),
+        size=(moments * first.travelled, places * first.spacing / width),
+        size_of_block=(TIME_BLOCK, PLACE_BLOCK),
+    )
+
+
+def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> tuple[str, ...]:
+    """Return what a reader should know of the sampling ``error`` of the strips of ``levels``."""
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(error.value):
-        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample), BIASED
+        return _why_no_sampling_error(prepared, levels), BIASED
     if error.value <= WORTH_A_NOTE * tolerance:
         return ()
     (stated, target) = percent_beside(error.value, tolerance)

@@ -53,7 +53,7 @@ from .strip_on_two_grids import (
     solve_pair,
     surface_and_map_coarsening,
 )
-from .time_and_place import mean_over_blocks
+from .time_and_place import TimeAndPlace, mean_over_blocks
 
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
@@ -370,15 +370,21 @@ def _estimate_at_rest(
     )
 
 
-def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
-    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`)."""
-    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
-    numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
+def samples_over_time(pairs: Sequence[StripOnTwoGrids]) -> list[TimeAndPlace]:
+    """Return what the places of strips rub at moments, of those ``pairs`` whose roughness moves; of a mirrored map one half."""
     samples = []
     for pair in pairs:
         places = pair.resolved.places_over_time
         if places is not None:
             samples.append(places.half() if pair.is_mirrored else places)
+    return samples
+
+
+def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
+    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`)."""
+    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
+    numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
+    samples = samples_over_time(pairs)
     control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)

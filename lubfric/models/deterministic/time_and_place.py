@@ -135,6 +135,11 @@ def mean_over_blocks(
     return MeanOverBlocks(mean + correction, error, plain, correction)
 
 
+def least_blocks(control: SummitControl | None) -> int:
+    """Return the number of blocks below which the standard error of a mean over them is not known, with this ``control``."""
+    return LEAST_FREEDOM + (2 if control is None or not control.is_known else 3)
+
+
 def _block_means(field: np.ndarray, counts: tuple[int, int]) -> np.ndarray:
     """Return the means of ``field`` (n, ny) over blocks of equal size; a remainder at the ends is omitted."""
     in_time, along_y = counts

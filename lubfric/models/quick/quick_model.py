@@ -64,7 +64,8 @@ BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick answer is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
-    "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller"
+    "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller. The "
+    "sampling error is that of asperities which this part of the surface has not: f of a smooth film depends on nothing else of it"
 )
 STRIPS_NOT_SOLVED = (
     "friction by Eq. (9), with the error of the load-sharing model: the strips on long cells were not solved ({})"

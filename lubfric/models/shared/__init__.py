@@ -36,6 +36,7 @@ from .checks_before import (
     violations_by_strips,
     violations_by_unusual_inputs,
     why_sample_too_short,
+    why_too_few_blocks,
 )
 from .control_variate import ControlVariate, with_forces_of_film
 from .decision import Decision

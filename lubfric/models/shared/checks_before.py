@@ -81,7 +81,39 @@ UNCUT_LENGTH = 1 + 1e-9
 
 
 def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
-    """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change.
+    """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change."""
+    return (
+        f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
+        f"{_ways_to_interval(scene, sample)}"
+    )
+
+
+def why_too_few_blocks(
+    scene: Scene,
+    sample: Sample,
+    *,
+    blocks: tuple[int, int],
+    needed: int,
+    size: tuple[float, float],
+    size_of_block: tuple[float, float],
+) -> str:
+    """Return that the ``sample`` that moves through the contact has so few ``blocks``, along the motion and along y, fewer than
+    the ``needed`` ones, that it gives no interval, and what to change.
+
+    ``size``: of the surface that passes, in half-widths of the Hertz strip and in correlation lengths along y;
+    ``size_of_block``: the least one of a block.
+    """
+    (along, across) = blocks
+    return (
+        f"not known: the surface that passes the contact has {along * across} nearly independent blocks ({along} along the motion x "
+        f"{across} along y), and an interval takes {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
+        f"({worded(scene.bodies.half_width, 'm')} at this load; a block takes {size_of_block[0]:g}) and {size[1]:.3g} correlation "
+        f"lengths wide along y (a block takes {size_of_block[1]:g}); {_ways_to_interval(scene, sample)} or along the motion"
+    )
+
+
+def _ways_to_interval(scene: Scene, sample: Sample) -> str:
+    """Return what gives an interval to a ``sample`` that is too short for one, as text.
 
     To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off; to omit
     ``numerics.sampling`` only where strips give one.
@@ -92,10 +124,7 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
         keys += extended
     omit = f"omit {' and '.join(keys)}, or " if keys else ""
     longer = way_to_longer_line(scene, sample.whole_map)
-    return (
-        f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}give "
-        f"{longer}"
-    )
+    return f"{omit}give {longer}"
 
 
 def _strips_give_interval(scene: Scene, sample: Sample) -> bool:
