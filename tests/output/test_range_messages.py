@@ -40,7 +40,7 @@ def test_ranges_in_equal_and_in_geometric_steps():
     np.testing.assert_allclose(parse_speeds("--speeds", "1 mm/s:0.1 m/s:3"), [0.001, 0.01, 0.1])
 
 
-@pytest.mark.parametrize("text", ["5,10,20", "1:50:3", "-5,0", "3"])
+@pytest.mark.parametrize("text", ["5,10,20", "1:50:3", "-5, 0", "3"])
 def test_ratios_that_are_percentages_are_questioned(text):
     """Above 2 the surfaces move in opposite directions: a list of such ratios alone is likely in percent."""
     with pytest.raises(InputError, match="--ratios: .*opposite directions; did you mean .* %. Write 0"):
