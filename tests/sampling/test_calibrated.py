@@ -180,15 +180,15 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     file.write_text(scene.to_toml())
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
-    basis = f"{BASIS.capitalize()} on {error_models()['rest'].cases} solved cases"
-    assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
+    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases"
+    assert page.index("f = ") < page.index(f"This point is by the {basis}.") < page.index("Uncertainty budget")
     assert "numerical (solvers)" in page and "model-form (equations, long cells)" in page
     assert "error of the long cells is in the model-form error" in page.lower()
     titles: list[str] = []
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")
     assert main(["plot", str(tmp_path / "out")]) == 0
-    assert [title.splitlines() for title in titles] == [[scene.name, basis.lower()]]
+    assert [title.splitlines() for title in titles] == [[scene.name, basis]]
 
 
 @pytest.mark.slow
