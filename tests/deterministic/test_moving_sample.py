@@ -26,6 +26,7 @@ from lubfric.models.deterministic import (
     sample_coarsening_of,
     solve_moving_strip,
     strip_on_two_grids,
+    violations_by_correction,
 )
 from lubfric.models.shared import why_too_few_blocks
 from lubfric.surface import Surface, generate_surface
@@ -90,6 +91,18 @@ def test_blocks_tell_the_error_of_the_mean_with_and_without_the_control():
         assert 0.75 < math.sqrt(np.mean(np.square(z))) < 1.25
     assert np.std([one.value for one in means]) < 0.45 * np.std([one.value for one in plain])
     assert all(one.value == other.value + one.correction for one, other in zip(means, plain))
+
+
+@pytest.mark.parametrize(
+    "correction, sampling, limit",
+    [(0.15, 0.3, 5), (-0.15, 0.3, 5), (0.03, 0.02, 2), (0.03, 0.04, None), (0.009, 0.001, None), (0.06, math.nan, 5)],
+)
+def test_a_correction_of_f_above_its_sampling_error_or_five_percent_is_a_note(correction, sampling, limit):
+    notes = list(violations_by_correction(correction, sampling))
+    assert len(notes) == (limit is not None)
+    for note in notes:
+        assert note.is_note and f"is {100 * abs(correction):g} %, above {limit} %" in note.text
+        assert f"corrected by {100 * correction:+g} %" in note.text
 
 
 def test_a_short_sample_does_not_know_its_error():

@@ -107,6 +107,13 @@ MOST_GIVEN_OFF = 0.1
 ERROR_BY_GAP = 0.02
 BY_GAP = "the assumed gap of 1 nm between touching cells"
 
+# Correction of f by the summits of the sample [-] above which a note states it whatever the sampling error is. A
+# convention: the usual model_tolerance.
+LARGE_CORRECTION = 0.05
+
+# The same, below which none does. A convention: the usual tolerance.
+SMALL_CORRECTION = 0.01
+
 # Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
 # less warns of more points.
 CUT = 0.1
@@ -163,7 +170,12 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
             *([TOO_MANY_CELLS] if levels.has_too_many_cells else []),
         ),
-        violations=tuple(_violations(prepared, numbers, results, heat)),
+        violations=(
+            *_violations(prepared, numbers, results, heat),
+            *violations_by_correction(
+                levels.by_summits, half_width_of_error(sampling_error.value, sampling_error.freedom)
+            ),
+        ),
         recommendation=_recommendation(prepared, levels),
         narrows_numerical=_narrows_numerical(prepared, levels),
         fields=fields_of(levels.finest, sample.in_words(1) + (MIRRORED if levels.pairs[0].is_mirrored else "")),
@@ -422,6 +434,24 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
         of = "asperity" if scene.lubricant.has_unlimited_stress else "film"
         text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"
     return text
+
+
+def violations_by_correction(by_summits: float, of_sample: float) -> Iterator[Violation]:
+    """Yield the note that f is corrected ``by_summits`` (relative to f) by more than `LARGE_CORRECTION`, or than the error
+    ``of_sample`` at 95 %, if that is `SMALL_CORRECTION` at least."""
+    limit = min(LARGE_CORRECTION, max(of_sample, SMALL_CORRECTION)) if math.isfinite(of_sample) else LARGE_CORRECTION
+    if abs(by_summits) > limit:
+        yield Violation(
+            assumption=Assumption.SAMPLE_LIKE_SURFACE,
+            what="part of f that corrects for the summits of the sample",
+            value=100 * abs(by_summits),
+            limit=100 * limit,
+            unit="%",
+            consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from those of "
+            "the infinite surface; the sampling error is that of the corrected f",
+            recommendation="",
+            is_note=True,
+        )
 
 
 def _violations(

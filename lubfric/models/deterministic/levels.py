@@ -133,6 +133,7 @@ class Levels:
     has_unsolved_cells : whether shorter cells were needed and did not converge
     has_too_many_cells : whether they were needed and are too many
     note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
+    by_summits : the correction of f by the summits, relative to the f of this estimate
     """
 
     numbers: dict[str, float]
@@ -152,6 +153,7 @@ class Levels:
     has_unsolved_cells: bool = False
     has_too_many_cells: bool = False
     note: str = ""
+    by_summits: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,7 +162,7 @@ class TwoLevelEstimate:
 
     Attributes
     ----------
-    control_strips, numbers, note : as in `Levels`
+    control_strips, numbers, note, by_summits : as in `Levels`
     error_of_f : standard error of f [-], not over it
     difference_error_of_f : the part of it that is the difference between the models [-]
     between : standard deviation of f between strips [-]
@@ -172,6 +174,7 @@ class TwoLevelEstimate:
     difference_error_of_f: StandardError
     between: float
     note: str = ""
+    by_summits: float = 0.0
 
     def strips_for_tolerances(self, *, sampling_tolerance: float, model_tolerance: float, count: int, most: int) -> int:
         """Return the number of strips of the second level, at most ``most``, that the tolerances need; there are
@@ -312,6 +315,7 @@ def levels_of(
         numerical=shorter.error,
         length=prepared.sample.line_length(max(estimate.control_strips, len(pairs))),
         note="; ".join(notes),
+        by_summits=estimate.by_summits,
     )
 
 
@@ -399,14 +403,15 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     numbers["coefficient"] = friction.value
     numbers = with_forces_of_film(numbers, load)
     between = friction.plain.value * math.sqrt(len(pairs))
-    note = CORRECTED_BY_SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
+    by_summits = friction.correction / friction.value
     return TwoLevelEstimate(
         control_strips=0,
         numbers=numbers,
         error_of_f=friction.error,
         difference_error_of_f=StandardError(0.0, 1),
         between=between,
-        note=note,
+        note=CORRECTED_BY_SUMMITS.format(100 * by_summits) if by_summits else "",
+        by_summits=by_summits,
     )
 
 

@@ -40,6 +40,7 @@ class Assumption(StrEnum):
     FINE_MAP = "map on cells short enough"
     LONG_SAMPLE = "sample with many asperities"
     STRIPS_LIKE_MAP = "strips as rough as the map"
+    SAMPLE_LIKE_SURFACE = "sample with the summits of its surface"
     CONTACT_ON_PATCH = "contact within the patch"
     LONG_PATCH = "patch longer than the contact"
     ASPERITIES_END = "asperities that end on the map"
