@@ -2,7 +2,7 @@
 
 import base64
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from importlib.resources import files
 from itertools import cycle
@@ -67,6 +67,12 @@ TABLE_ROUNDING = 1e-8
 
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
 FULL_FILM_PART = 0.01
+
+# Loads that say what carries F_T.
+LOADS = ("contact_load", "film_load", "boundary_film_load", "saturated_film_load")
+
+# Part of the load on films at their limiting stress from which it is stated. A convention.
+LEAST_AT_LIMIT = 0.01
 
 # Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
 MOST_STEP = 10.0
@@ -420,7 +426,25 @@ def _operating_table(curve: CurveResult) -> str:
             float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
         )
         rows.append(_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
-    return f"<h2>Operating points</h2>{table(heads, rows)}"
+    at_limit = films_at_limit({name: curve[name] for name in LOADS})
+    beside = f"<p>{escape(at_limit)}</p>" if at_limit else ""
+    return f"<h2>Operating points</h2>{beside}{table(heads, rows)}"
+
+
+def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
+    """Return in a sentence how much of the load films at their limiting stress carry that are no part of the asperity load, by
+    the ``loads`` (`LOADS`) [N] of some points; "" where that is less than `LEAST_AT_LIMIT` everywhere or not known."""
+    (contact, film, boundary, saturated) = (loads[name] for name in LOADS)
+    shares = (saturated - np.maximum(contact - boundary, 0.0)) / (contact + film)
+    shares = shares[shares > LEAST_AT_LIMIT]
+    if not shares.size:
+        return ""
+    ends = " to ".join(dict.fromkeys(f"{100 * end:.2g}" for end in (shares.min(), shares.max())))
+    where = f" at {shares.size} of {counted(contact.size, 'points')}" if contact.size > 1 else ""
+    return (
+        f"Films that are sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio counts "
+        "none of that."
+    )
 
 
 def _heading(name: str, unit: str) -> str:

@@ -44,7 +44,7 @@ from ..studies import (
 from ..time import may_move_roughness
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .inputs import INPUT_SECTIONS, inputs
-from .report import effects_table, names_of_inputs, picture, shortfalls, style_sheet, table
+from .report import effects_table, films_at_limit, names_of_inputs, picture, shortfalls, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -105,6 +105,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         if rows == size
         else f"{rows} of {size} points; study.csv has all of them."
     )
+    about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),

@@ -8,7 +8,7 @@ import pytest
 from small_study import SCENE, same
 
 import lubfric
-from lubfric.output import main
+from lubfric.output import main, report
 from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
@@ -306,6 +306,19 @@ def test_the_answer_of_a_study_names_an_estimated_pressure_viscosity_coefficient
         effects = lubfric.friction(scene, 0.5).unmodelled_effects
         by_alpha = [change for what, change, _ in effects if "measured oils" in what]
         assert by_alpha and all(f"by {100 * change:+.2g} %" in text for change in by_alpha)
+
+
+def test_the_load_on_films_at_their_limit_is_stated_beside_the_asperity_load_ratio():
+    """Two films at the limit of the oil, one that is part of the asperity load, one whose load is not known."""
+    loads = {
+        "contact_load": np.array([0.0, 20.0, 60.0, 10.0]),
+        "film_load": np.array([100.0, 80.0, 40.0, 90.0]),
+        "boundary_film_load": np.array([0.0, 20.0, 10.0, 10.0]),
+        "saturated_film_load": np.array([92.0, 50.0, 50.0, np.nan]),
+    }
+    assert "carry 50 to 92 % of the load at 2 of 4 points" in report.films_at_limit(loads)
+    assert "carry 92 % of the load;" in report.films_at_limit({name: load[:1] for name, load in loads.items()})
+    assert report.films_at_limit({name: load[2:] for name, load in loads.items()}) == ""
 
 
 def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
