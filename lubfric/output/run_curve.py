@@ -448,7 +448,9 @@ def _plot(
     violations = [[Violation(**unknown | violation) for violation in each] for each in known]
     title = figures.plain_words(title)
     if "ratio" in columns:
-        title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
+        (first, *others) = title.splitlines()
+        speed = columns["speed"][np.isfinite(columns["coefficient"])][0]
+        title = "\n".join([f"{first}, U = {speed:g} m/s", *others])
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
 
 

@@ -49,12 +49,17 @@ def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():
     assert axes.title.get_text() not in cut_texts(figure) and "0.476" in axes.title.get_text()
 
 
-def test_a_curve_by_two_models_says_which_points_are_by_which():
+def test_a_curve_by_two_models_says_which_points_are_by_which(monkeypatch):
     """Of a picture in its title, of a report in a sentence."""
     names = {"long cells": [0.0, 0.5], "load-sharing model": [0.1, 0.2, 0.3]}
     ratios = sorted((ratio, basis) for basis, values in names.items() for ratio in values)
     title = run_curve._title("rig", [{"basis": basis} for _, basis in ratios])
     assert title.splitlines() == ["rig", "load-sharing model (3 of 5 points)", "long cells (2 of 5 points)"]
+    titles: list[str] = []
+    monkeypatch.setattr(run_curve, "plot_traction", lambda path, columns, title, *_: titles.append(title))
+    columns = {name: np.ones(5) for name in ("ratio", "speed", "coefficient")}
+    run_curve._plot(SimpleNamespace(), columns, title, [])
+    assert titles[0].splitlines() == ["rig, U = 1 m/s", *title.splitlines()[1:]]
     points = [SimpleNamespace(decision=SimpleNamespace(basis=basis, model="quick")) for _, basis in ratios]
     curve = SimpleNamespace(
         SWEPT=("ratio", "S", "", "slide-roll ratios"), ratio=np.array([ratio for ratio, _ in ratios]), points=points
