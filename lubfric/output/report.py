@@ -604,7 +604,7 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
         if run_model_of(scene).solves_rough_film
-        else f"The smallest film thickness, under the film load, is {film}."
+        else f"The smallest film thickness is {film}, {_moment_of_least_film(result)}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
@@ -619,6 +619,14 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
             "times Sq."
         )
     return sentences
+
+
+def _moment_of_least_film(result: TransientResult) -> str:
+    """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
+    index = int(np.nanargmin(result.min_film))
+    film = 1.0 - float(result.contact_load[index] / result.load[index])
+    others = " and asperities carry the rest" if film < 1.0 else ""
+    return f"at t = {worded(float(result.time[index]), 's')}, where the film carries {100 * film:.3g} % of the load{others}"
 
 
 def _history_notes(scene: Scene, result: TransientResult) -> list[str]:

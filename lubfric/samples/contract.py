@@ -137,7 +137,9 @@ class Sample(ABC):
 
     def described(self, surface: Surface) -> list[str]:
         """Return in words the map that the scene has, and ``surface``, its `stated_map`."""
-        joined = f"{self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
+        joined = (
+            f"the first {self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
+        )
         return [self.map_in_words(surface), f"statistics of {joined}: {replace(surface, source='').describe()}"]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
@@ -148,7 +150,9 @@ class Sample(ABC):
     def map_in_words(self, surface: Surface) -> str:
         """Return in words the map that the scene has, of which ``surface`` is the `stated_map`."""
         length = worded(self.line_length(1), "m")
-        return f"{surface.source}, as an infinite line contact; each speed solves as many strips of {length} as its sampling error needs"
+        return (
+            f"{surface.source}, as an infinite line contact in strips of {length}, as many as the sampling error needs"
+        )
 
     def ends_after(self, count: int) -> bool:
         """Return whether the surface itself, not the work on it, ends after ``count`` strips."""

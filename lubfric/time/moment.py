@@ -49,7 +49,8 @@ from .scene_in_time import scene_at, sliding_at
 NO_FLOW = 1e-2
 
 STEADY_ONLY = (
-    "a run in time has no other deflection; compare it with the steady f, which has numerics.film_deflection = 'scaled'"
+    "compare f with that of a steady point of the same values (a scene without [transient]), where "
+    "numerics.film_deflection = 'scaled' deflects the film by the total load"
 )
 # Entrainment speed [m/s] of a film at rest, which was drawn in slowly. A choice: slower films are as thin as molecules.
 STANDSTILL_SPEED = 1e-6

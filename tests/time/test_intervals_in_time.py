@@ -125,6 +125,15 @@ def test_the_largest_f_and_the_lambda_ratios_of_a_run_are_those_of_its_motion(he
     assert [float(low), float(high)] == pytest.approx(held.lambda_ratio[[0, 2]], rel=0.01)
 
 
+def test_the_thinnest_film_of_a_run_is_stated_with_its_time_and_its_part_of_the_load(held):
+    """A film that carries little is thick where asperities keep the surfaces apart."""
+    film = held.min_film * np.array([1.0, 0.5, 1.0])
+    for carried, words in ((0.012, "1.2 % of the load and asperities carry the rest."), (1.0, "100 % of the load.")):
+        columns = held.columns | {"min_film": film, "contact_load": (1 - carried) * held.load}
+        text = " ".join(history_answer(STRIPS, replace(held, columns=columns), complete=True))
+        assert f", at t = 1 ms, where the film carries {words}" in text
+
+
 def test_friction_gives_no_power():
     """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at 0."""
     sliding = Harmonic(amplitude=0.2, frequency=500.0, phase=3.3)

@@ -262,7 +262,9 @@ def violations_by_deflection(
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
-    why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
+    why = (
+        "the film, which its own pressure alone deflects, carries too much of the load: at low speeds f stays below f_b"
+    )
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
     yield Violation(
         assumption=Assumption.FILM_UNDER_TOTAL_LOAD,

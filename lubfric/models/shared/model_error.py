@@ -16,7 +16,7 @@ REDUCED_BY_TOLERANCE = "a smaller numerics.tolerance reduces it"
 LARGEST_PART = "its largest part is {}"
 IN_INTERVAL = "the interval of f includes it"
 READ_INTERVAL = "read f with its interval"
-OTHER_PARTS = "{}; the other parts are {}"
+OTHER_PARTS = "{}; without that part the model-form error is {}"
 
 
 @dataclass(frozen=True, kw_only=True)
