@@ -21,7 +21,8 @@ ROLLING = PAPER.with_(
 
 def row_of_table(scene: lubfric.Scene) -> dict[str, str]:
     """Return the row of the estimate at 0.3 m/s, by its headings."""
-    (heads, *rows) = estimate_scene(scene).table
+    prepared = lubfric.prepare(scene)
+    (heads, *rows) = estimate_scene(prepared.scene, prepared.sample, prepared.surface).table
     return dict(zip(heads, next(row for row in rows if row[0] == "0.3")))
 
 
