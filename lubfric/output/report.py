@@ -698,7 +698,7 @@ def _history_table(result: TransientResult) -> str:
     entrains = rolls(c)
     units = {name: unit_of_largest(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
-    shown |= {name: np.where(moving, shown[name], 0.0) for name in ("entrainment_speed", "sliding_speed")}
+    shown |= {name: np.where(moving, shown[name], 0.0) for name in ("entrainment_speed", "sliding_speed", "power_loss")}
     shown |= {name: np.where(entrains, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
     before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
     after = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "after"]

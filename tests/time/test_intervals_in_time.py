@@ -247,6 +247,7 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
     )
     assert "under 2 to 4 N" in page and "total load 2 to 4 N over the run" in " ".join(page.split())
     assert "It is negative at" in page and "where f is nearest to its mean" in page
+    assert re.findall(r"at rest +- +(\S+)", page) == ["0"] * 3  # power loss at the start, the reversal and the end
     assert "The run is not periodic" in page and "the mean contains the start" in page
     assert " % of the estimated steps: t = 0.01 of 0.01 s" in said and "without the model-form" not in said + page
 
