@@ -95,7 +95,7 @@ def test_info_reports_beforehand_what_friction_refuses():
     assert "not valid" not in describe_scene(mended)
     paper = describe_scene(lubfric.load_scene("paper"))
     assert "no limit of the model is exceeded" in paper
-    places = [paper.index(word) for word in ("  model\n", "processor time", "lambda ratio", "Hertz", "  lubricant\n")]
+    places = [paper.index(word) for word in ("  model\n", "processor time", "full-load film", "Hertz", "  lubricant\n")]
     assert places == sorted(places)  # what a user looks for comes first
     assert "Did you mean 8 mm (0.008 m)?" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
