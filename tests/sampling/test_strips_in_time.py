@@ -62,8 +62,10 @@ def test_an_average_is_the_integral_over_time(held):
     )
     speed, error = np.array([[0.0, 0.03, 0.03, 0.0], [np.nan, 0.02, 0.02, np.nan]])
     still = {"entrainment_speed": speed, "sampling_error": error}
-    mean = dataclasses.replace(held, columns=columns | still).average()
-    assert (mean.coefficient, mean.sampling, mean.in_motion) == pytest.approx((0.1, 0.02, 0.75))
+    mean = dataclasses.replace(
+        held, columns=columns | still
+    ).average()  # between a standstill and an output in motion the surfaces move
+    assert (mean.coefficient, mean.sampling, mean.in_motion) == pytest.approx((0.1, 0.02, 1.0))
 
 
 def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():

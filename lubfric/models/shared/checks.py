@@ -71,6 +71,9 @@ NUMERICAL_ERROR = "estimated numerical error of f"
 # extrapolation from grid to grid is no more than an order of magnitude there.
 LARGE_NUMERICAL_ERROR = 0.2
 
+# Digits of a slip in percent that a user writes, at most: a ratio that follows from two speeds has more. A choice.
+DIGITS_OF_SLIP = 2
+
 # Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
 REFUSED_SHARE = 0.2
 
@@ -85,9 +88,11 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
-        check = "the speeds of the surfaces: the ratio is 2 in simple sliding, and 0.02 at a slip of 2 %"
+        check = "the speeds of the surfaces: the ratio is 2 in simple sliding"
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
             check = "motion.entrainment_speed and motion.sliding_speed over the run"
+        elif float(f"{ratio:.{DIGITS_OF_SLIP}g}") == ratio:  # no quotient of two speeds
+            check += f", and a slip of {ratio:g} % ({ratio / 100:g}) goes into motion.slip_percent"
         advice = f"take f for an estimate if the surfaces move so, as at the nose of a cam; else check {check}"
         yield Violation(
             assumption=Assumption.ONE_DIRECTION,
