@@ -14,6 +14,9 @@ from .uncertainty import Uncertainty, with_part
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
 LEAST_REPORTED_CHANGE = 5e-4
 
+# Change of f over f that is shown as 0 beside a larger one [-]. A convention.
+LEAST_SHOWN_CHANGE = 1e-5
+
 # Change of f in percent that is stated to three digits, at least: it rounds to 100. A convention.
 LEAST_OF_THREE_DIGITS = 99.5
 
@@ -97,8 +100,9 @@ def with_inputs_not_given(old: Uncertainty, relative_changes: dict[str, tuple[fl
 
 
 def _signed(percentage: float) -> str:
-    """Return a change in percent with its sign, to two digits, or three from 100 % on."""
-    if not percentage:
+    """Return a change in percent with its sign, to two digits, or three from 100 % on; "0" for one that the rounding of a
+    solve leaves."""
+    if abs(percentage) < 100 * LEAST_SHOWN_CHANGE:
         return "0"
     has_three_digits = abs(percentage) >= LEAST_OF_THREE_DIGITS
     return f"{percentage:+.3g}" if has_three_digits else f"{percentage:+.2g}"

@@ -110,12 +110,15 @@ def test_the_deterministic_answer_has_its_ranges_too():
 
 
 def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
-    """At the value itself the change is 0, so that ends which both lower f leave 0 as the upper end."""
+    """At the value itself the change is 0, so that ends which both lower f leave 0 as the upper end. What the rounding of
+    a solve leaves is 0, too."""
     known = f(SMALL.with_(numerics={"model": "paper"}))
     plain = replace(known.uncertainty, notes=())
     changes = {"bodies.hardness": (-0.0005, -0.001), "lubricant.eyring_stress": (0.002, -0.001)}
     notes = with_input_ranges(replace(plain, coefficient=0.1), changes).notes
     assert notes == ("range of hardness: f -1 to 0 %", "range of eyring_stress: f -1 to +2 %")
+    by_rounding = {"lubricant.limiting_stress_coefficient": (-0.001, 4.4e-17)}
+    assert with_input_ranges(replace(plain, coefficient=0.1), by_rounding).notes[0].endswith(": f -1 to 0 %")
 
 
 @pytest.mark.parametrize("motion", [{}, {"slide_roll_ratio": 0.3}])

@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
+from ...quantities import counted
 from ...samples import (
     Sample,
     is_measured,
@@ -105,10 +106,11 @@ def why_too_few_blocks(
     """
     (along, across) = blocks
     return (
-        f"not known: the surface that passes the contact has {along * across} nearly independent blocks ({along} along the motion x "
-        f"{across} along y), and an interval takes {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
+        f"not known: the surface that passes the contact has {counted(along * across, 'nearly independent blocks')} ({along} along the "
+        f"motion x {across} along y), and an interval takes {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
         f"({worded(scene.bodies.half_width, 'm')} at this load; a block takes {size_of_block[0]:g}) and {size[1]:.3g} correlation "
-        f"lengths wide along y (a block takes {size_of_block[1]:g}); {_ways_to_interval(scene, sample)} or along the motion"
+        f"lengths wide along y (a block takes {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
+        "or one that is longer along the motion"
     )
 
 
