@@ -416,7 +416,7 @@ def _main_effects_line(result: StudyResult) -> list[str]:
     effects = main_effects(result)
     if not effects:
         return []
-    trends = {-1: ", f falls with it", 0: "", 1: ", f rises with it"}
+    trends = {-1: ", on average f falls with it", 0: "", 1: ", on average f rises with it"}
     words = [
         f"{COLUMNS[key].label if key in COLUMNS else key} {percent(effect.share)}{trends[effect.slope]}"
         for key, effect in effects.items()

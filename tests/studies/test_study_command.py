@@ -102,7 +102,10 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     for key, effect in effects.items():
         assert effect.share == pytest.approx(parts[key] / sum(parts.values()), rel=1e-12)
     (line,) = (line for line in study_report.answer_lines(result) if "variance" in line)
-    assert "total load 88 %, f falls with it; viscosity at ambient pressure 12 %, f rises with it." in line
+    assert (
+        "total load 88 %, on average f falls with it; viscosity at ambient pressure 12 %, on average f rises with it."
+        in line
+    )
     page = study_report.study_page(result, {}, []).decode()
     assert "Pressure, temperature, and parts of the error" in page and "Effects not modelled" in page
     unknown = result.columns | {"film_temperature_rise": np.full(result.status.shape, np.nan)}
