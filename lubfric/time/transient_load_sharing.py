@@ -7,7 +7,7 @@ import numpy as np
 from ..film import cubic
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
-from ..scene import moving_bodies
+from ..scene import Scene, moving_bodies
 from .film_setting import TIME_SHARE, Setting
 from .load_sharing_solver import LoadSharingSolver
 from .march import Progress
@@ -42,7 +42,7 @@ class TransientLoadSharing(LoadSharingSolver):
     @property
     def time_error(self) -> float:
         """Largest local error of a step, unless the scene states one."""
-        return TIME_SHARE * self.scene.numerics.tolerance_of("film")
+        return _default_time_error(self.scene)
 
     @property
     def x(self) -> np.ndarray:
@@ -90,6 +90,11 @@ class TransientLoadSharing(LoadSharingSolver):
         )
 
 
+def _default_time_error(scene: Scene) -> float:
+    """Return the largest local error of a step, unless ``scene`` states one."""
+    return TIME_SHARE * scene.numerics.tolerance_of("film")
+
+
 def make_load_sharing(
     prepared: Prepared, setting: Setting, *, correlation_length: float, area: float, plastic: float
 ) -> TransientLoadSharing:
@@ -97,7 +102,7 @@ def make_load_sharing(
     ``correlation_length``, ``area``, ``plastic``: as in `TransientLoadSharing`."""
     problem = setting.problem
     numerics = prepared.scene.numerics
-    time_error = transient_of(prepared.scene).tolerance or TIME_SHARE * numerics.tolerance_of("film")
+    time_error = transient_of(prepared.scene).tolerance or _default_time_error(prepared.scene)
     patch = prepared.rough_contact
     if patch.adjustable_tolerance is not None:
         patch = patch.tightened(min(patch.adjustable_tolerance, CONTACT_SHARE * time_error))
