@@ -121,6 +121,8 @@ def run(arguments: Namespace) -> None:
         is_default = getattr(arguments, option) in ((None, 1) if option == "workers" else (None, False))
         if not is_default and of != what:
             raise InputError(f"--{option} is for {of}, and this is {what}; omit it")
+    if what == OF_RUNS_IN_TIME and arguments.measured is not None:
+        raise InputError(f"--measured is drawn with a curve, and this is {what}; omit it")
     solve = {
         OF_TRACTION: run_curve.run_traction,
         OF_RUNS_IN_TIME: run_history.run_history,

@@ -45,8 +45,8 @@ def plot_stribeck(
     """Draw f, the load ratios and the film over the entrainment speed.
 
     ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``violations``:
-    for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured` over
-    speed, drawn with the curve.
+    for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured`, drawn with the
+    curve.
     """
     figure, axes = _panels([name for name in PANELS["stribeck"] if name in options.panels], options)
     shown = [*axes.values()]
@@ -57,9 +57,7 @@ def plot_stribeck(
     if "friction" in axes:
         top = axes["friction"]
         friction_over_speed(top, columns, has_parts=options.has_parts, as_bars=options.has_bars)
-        if measured is not None:
-            measured.draw(top)
-            top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
+        _draw_measured(top, measured)
         _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order], options)
         top.set(xlabel="")
     figures.head(figure, title if options.has_title else "")
@@ -77,6 +75,19 @@ def plot_stribeck(
         figures.plain_ticks(each.xaxis)
     options.thin(figure)
     figure.savefig(path)
+
+
+def _draw_measured(axes: Axes, measured: Any, *, is_signed: bool = False) -> None:
+    """Draw a `lubfric.Measured` among the lines of a curve; None draws nothing. ``is_signed``: the axis has slide-roll ratios
+    of both signs, not magnitudes."""
+    if measured is None:
+        return
+    if is_signed:
+        label = figures.plain_words(measured.source)
+        axes.errorbar(measured.x, measured.coefficient, fmt="D", ms=4, color="k", mfc="none", lw=1, label=label)
+    else:
+        measured.draw(axes)
+    axes.set_ylim(bottom=min(axes.get_ylim()[0], 1.1 * measured.coefficient.min()))
 
 
 def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
@@ -123,6 +134,7 @@ def plot_traction(
     if "friction" in axes:
         top = axes["friction"]
         _traction_over_ratio(top, c, options)
+        _draw_measured(top, measured, is_signed=bool((ratio < 0).any()))
         _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title if options.has_title else "")
     if "load" in axes:

@@ -60,6 +60,10 @@ NARROWEST = 0.05  # m: width of a picture
 LEAST_DPI = 50  # points of a picture per inch
 MOST_DPI = 1200  # points of a picture per inch
 WIDEST_PICTURE = 0.6  # m: width of a picture
+OF_MEASURED = ("measured", "speed", "ratio", "coefficient")  # options of a measured curve and of its columns
+# By the table of a curve, of what a measured curve is over: the option that names its column, the keyword of
+# `lubfric.read_measured`, and its name.
+MEASURED_OVER = {"stribeck": ("speed", "speed", "speed"), "traction": ("ratio", "slide_roll_ratio", "slide-roll ratio")}
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs; a choice: a process takes a second to start
 MOST_GAPS = 3  # gaps of a traction curve that are named; a choice
@@ -78,6 +82,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     """
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
+    measured = measured_of(arguments, "stribeck")
     total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
     progress = _progress("U = {:.4g} m/s", scene, is_total_known=speeds != studies.AUTO_SPEEDS)
     names = names_of_run("stribeck")
@@ -116,7 +121,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
                 on_point=on_point,
                 raise_on_failure=False,
             )
-            _write(folder, prepared, curve, arguments, estimate, chosen)
+            _write(folder, prepared, curve, arguments, estimate, chosen, measured)
     _raise_if_failed(curve)
 
 
@@ -136,6 +141,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
     and, last, result.json to ``arguments.out``."""
     ratios = parse_ratios(arguments.ratios)
+    measured = measured_of(arguments, "traction")
     begun = run_begun(scene, arguments, names_of_run("traction"), None, ratios, "traction", ratios=ratios)
     progress = _progress("slide-roll ratio {:.4g}", scene, has_ratios=True)
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
@@ -145,7 +151,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
             progress(*point)
 
         curve = studies.traction(prepared, in_percent(ratios), on_point=on_point, raise_on_failure=False)
-        _write(folder, prepared, curve, arguments, estimate, [])
+        _write(folder, prepared, curve, arguments, estimate, [], measured)
         for gap in curve.gaps[:MOST_GAPS]:
             say(f"note: {gap.text}")
     _raise_if_failed(curve)
@@ -158,9 +164,10 @@ def _write(
     arguments: Namespace,
     estimate: SceneEstimate,
     chosen: list[float],
+    measured: studies.Measured | None,
 ) -> None:
     """Write the table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was
-    requested. ``estimate``: before it was solved."""
+    requested. ``estimate``: before it was solved; ``measured``: drawn with the curve."""
     name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
     contents = folder.contents
     table = f"{name}.csv"
@@ -171,7 +178,8 @@ def _write(
         with folder.reporting(f"{name}.png was not drawn"):
             columns = read_table(folder.path / table, contents[table])
             if _drawable(columns).any():
-                folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene.name, numbers), numbers)
+                title = _title(prepared.scene.name, numbers)
+                folder.draw(f"{name}.png", _plot, columns, title, numbers, measured)
     with folder.reporting("the fields were not written"):
         _write_fields(folder, prepared, curve, chosen, vtk=arguments.vtk)
     law: studies.Law | str = ""
@@ -274,16 +282,14 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
 
 
 def plot_again(arguments: Namespace) -> None:
-    """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a Stribeck curve with the measured curve that the
+    """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a curve with the measured one that the
     ``arguments`` of ``lubfric plot`` name. With ``--contact`` draw the contact at one speed again, from fields.npz."""
     if arguments.contact is not None:
         _plot_contact_again(arguments)
         return
     folder = arguments.folder
     name = next((name for name in TABLES if (folder / f"{name}.csv").is_file()), None)
-    given = [option for option in ("measured", "speed", "coefficient") if getattr(arguments, option) is not None]
-    if given and "measured" not in given:
-        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    _check_measured(arguments)
     if name is None and (folder / FIT).is_file():
         _plot_fit_again(arguments)
         return
@@ -296,8 +302,9 @@ def plot_again(arguments: Namespace) -> None:
         raise InputError(
             f"{folder} has no stribeck.csv; give a folder that 'lubfric run', 'lubfric study' or 'lubfric fit' wrote"
         )
-    if given and name != "stribeck":
-        raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} has {TABLES[name]}")
+    if name == "history":
+        _refuse(arguments, OF_MEASURED, f"is for the picture of a curve, and {folder} has {TABLES[name]}; omit it")
+    measured = None if name == "history" else measured_of(arguments, name)
     options = _picture_options(arguments, name)
     columns = read_table(folder / f"{name}.csv")
     record = read_record(folder)
@@ -308,13 +315,38 @@ def plot_again(arguments: Namespace) -> None:
         )
     else:
         points = _points_of(folder / f"{name}.csv", columns, record)
-        again = partial(_plot, columns=columns, title=_title(title, points), points=points, options=options)
-    if given:
-        if len(given) < 3:
-            raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        columns_of = {"coefficient": arguments.coefficient, "speed": arguments.speed}
-        again = partial(again, measured=studies.read_measured(arguments.measured, **columns_of))
+        again = partial(
+            _plot, columns=columns, title=_title(title, points), points=points, measured=measured, options=options
+        )
     _write_picture(arguments, name, again)
+
+
+def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:
+    """Return the measured curve that the ``arguments`` of a command name, for the picture of the table ``name``; None where
+    they name none. A line on stderr says which columns it is."""
+    _check_measured(arguments)
+    if arguments.measured is None:
+        return None
+    (option, keyword, axis) = MEASURED_OVER[name]
+    for other, *_ in MEASURED_OVER.values():
+        if other != option and getattr(arguments, other) is not None:
+            recommendation = f"give --{option}, the heading of the column of {axis}s"
+            raise InputError(f"--{other} is not for {TABLES[name]}", recommendation=recommendation)
+    heading = getattr(arguments, option)
+    if heading is None or arguments.coefficient is None:
+        raise InputError(f"--measured needs --{option} and --coefficient, the headings of its columns")
+    measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, **{keyword: heading})
+    columns = f"the {axis} is its column {heading!r}, f its column {arguments.coefficient!r}"
+    say(f"measured: {counted(measured.x.size, 'points')} of {measured.source}; {columns}")
+    return measured
+
+
+def _check_measured(arguments: Namespace) -> None:
+    """Refuse ``arguments`` that name a column of a measured curve and no such curve."""
+    given = next((name for name in OF_MEASURED if getattr(arguments, name) is not None), "measured")
+    if arguments.measured is None and given != "measured":
+        solved = f", or --{given}s for what is solved" if f"{given}s" in arguments else ""
+        raise InputError(f"--{given} names a column of the measured curve; give --measured as well{solved}")
 
 
 def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
@@ -326,7 +358,7 @@ def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
 
 def _plot_study_again(arguments: Namespace) -> None:
     """Draw the picture of a study again."""
-    of_runs = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "interval")
+    of_runs = (*OF_MEASURED, "panels", "x_scale", "y_scale", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a study; omit it")
     options = _picture_options(arguments, "study")
     result = studies.open_study(arguments.folder)
@@ -335,7 +367,7 @@ def _plot_study_again(arguments: Namespace) -> None:
 
 def _plot_fit_again(arguments: Namespace) -> None:
     """Draw the picture of a fit again."""
-    of_runs = ("measured", "speed", "coefficient", "panels", "without", "interval")
+    of_runs = (*OF_MEASURED, "panels", "without", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a fit; omit it")
     options = _picture_options(arguments, "fit")
     _write_picture(arguments, "fit", partial(plot_fit, record=read_fit(arguments.folder / FIT), options=options))
@@ -343,7 +375,7 @@ def _plot_fit_again(arguments: Namespace) -> None:
 
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
-    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without", "interval")
+    of_curves = (*OF_MEASURED, "panels", "x_scale", "y_scale", "without", "interval")
     _refuse(arguments, of_curves, "is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
     options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))

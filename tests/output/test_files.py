@@ -153,6 +153,39 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
     assert main(command) == 2
     assert main([*command, "--speed", "V", "--coefficient", "mu"]) == 2
     assert "has no column 'V'; it has: U [mm/s], mu" in capsys.readouterr().err
+    assert main([*command, "--ratio", "U [mm/s]", "--coefficient", "mu"]) == 2
+    assert "--ratio is not for a Stribeck curve; give --speed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("ratios, x", [("0.1,0.4", [0.1, 0.2]), ("-0.2,0.2", [-0.1, 0.2])])
+def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monkeypatch, drawn, ratios, x):
+    """By `lubfric run` and by `lubfric plot`: over the ratios as they are, or over their magnitudes if the curve has no
+    negative ones. A line says which columns are read."""
+    from matplotlib.axes import Axes
+
+    points = []
+    real = Axes.errorbar
+
+    def errorbar(self, place, f, *arguments, **options):
+        points.append((np.array(place).tolist(), np.array(f).tolist()))
+        return real(self, place, f, *arguments, **options)
+
+    monkeypatch.setattr(Axes, "errorbar", errorbar)
+    monkeypatch.setattr("lubfric.output.commands.plot_surface", lambda path, *_: path.write_bytes(STAND_IN))
+    motion = {"entrainment_speed": 1.0}
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}, motion=motion)
+    (tmp_path / "s.toml").write_text(scene.to_toml())
+    (tmp_path / "m.csv").write_text("SRR [%],mu\n-10,0.08\n20,0.03\n")
+    columns = ["--measured", str(tmp_path / "m.csv"), "--ratio", "SRR [%]", "--coefficient", "mu"]
+    folder = str(tmp_path / "o")
+    assert main(["run", str(tmp_path / "s.toml"), f"--ratios={ratios}", "--out", folder, *columns]) == 0
+    assert main(["plot", folder, *columns]) == 0
+    assert points == 2 * [(x, [0.08, 0.03])]
+    error = " ".join(capsys.readouterr().err.split())
+    assert error.count("the slide-roll ratio is its column 'SRR [%]', f its column 'mu'") == 2
+    wrong = ["plot", folder, "--measured", str(tmp_path / "m.csv"), "--speed", "SRR [%]", "--coefficient", "mu"]
+    assert main(wrong) == 2
+    assert "--speed is not for a traction curve; give --ratio" in " ".join(capsys.readouterr().err.split())
 
 
 ODD = ["$$", r"$\unknowncmd$", r"\$ a $x_", "100 % $5", "a\nb 😀 {x} <b>&"]
