@@ -2,7 +2,7 @@
 
 import base64
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from html import escape
 from importlib.resources import files
 from itertools import cycle
@@ -122,12 +122,12 @@ def report_page(
         | {
             "name": escape(scene.name),
             "style": (home / "report.css").read_text(encoding="utf-8"),
-            "subject": escape(_subject(scene)),
+            "subject": escape(scene_in_words(scene)),
             "date": escape(record["date"]),
             "version": escape(record["versions"]["lubfric"]),
             "curve": _pictures(contents, shows_answer=True),
-            "warnings": _warnings(result.validity),
-            "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
+            "warnings": warnings_and_notes(result.validity),
+            "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": _pictures(contents, shows_answer=False)
             or "<p>There is no contact or rough surface to show.</p>",
             "method": _method(prepared, result, estimate),
@@ -149,7 +149,8 @@ def style_sheet() -> str:
     return (files(__package__) / "report.css").read_text(encoding="utf-8")
 
 
-def _subject(scene: Scene) -> str:
+def scene_in_words(scene: Scene) -> str:
+    """Return the contact and the oil of a scene in a line."""
     bodies = scene.bodies
     oil = scene.lubricant
     warm = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
@@ -175,12 +176,12 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
     return {
         "kind": "failed" if failed else "",
         "status": escape(curve_status(curve)),
-        "answer": _paragraphs(answer),
+        "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(curve),
         "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
-        "sources": _list(curve.cite().splitlines()),
+        "sources": bullets(curve.cite().splitlines()),
     }
 
 
@@ -380,7 +381,7 @@ def _budget(
         else f"<span>{label}</span><span></span><span>not known</span>"
         for name, label in shown.items()
     )
-    lines = _list([sentence(note) for note in notes if note])
+    lines = bullets([sentence(note) for note in notes if note])
     unknown = {name for name in shown if not math.isfinite(values[name])}
     combined = "the interval of f combines them"
     if unknown:
@@ -543,14 +544,14 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
     return {
         "kind": "" if complete else "failed",
         "status": escape(result.status),
-        "answer": _paragraphs(
+        "answer": paragraphs(
             [*history_answer(prepared.scene, result, complete=complete), *_history_notes(prepared.scene, result)]
         ),
         "budget": _history_budget(result),
         "table": _history_table(result),
         "effects": _history_effects(prepared, result, estimate),
         "details": "",
-        "sources": _list(result.cite().splitlines()),
+        "sources": bullets(result.cite().splitlines()),
     }
 
 
@@ -750,12 +751,12 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
     return head + table(["effect", "change of f", "recommendation"], rows)
 
 
-def _warnings(validity: Iterable[str]) -> str:
+def warnings_and_notes(validity: Iterable[str]) -> str:
     texts = {text: sentence(_without_head(text)) for text in validity}
     warnings = [shown for text, shown in texts.items() if not is_note_text(text)]
     notes = [shown for text, shown in texts.items() if is_note_text(text)]
     heading = "<h3>Notes</h3>" if notes else ""
-    return _list(warnings, "No checked limit of the model is exceeded.", "warning") + heading + _list(notes)
+    return bullets(warnings, "No checked limit of the model is exceeded.", "warning") + heading + bullets(notes)
 
 
 def _without_head(text: str) -> str:
@@ -765,8 +766,9 @@ def _without_head(text: str) -> str:
     return text
 
 
-def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
-    """Return the inputs of a section: each value used, how it was given, and what follows from them."""
+def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:
+    """Return the inputs of a section: each value used, how it was given, and what follows from them; ``fitted``: the keys that
+    a fit found."""
     shown = dict(given)
     rows = []
     for label, text, key, note in inputs(scene, section):
@@ -774,15 +776,18 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
         source = "derived" if _is_short_form(section, given) else "default"
         if name in shown:
             source = _given(name, shown.pop(name))
+        source = BY_FIT if key in fitted else source
         cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
         rows.append(cells)
     for name, value in shown.items():
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
+        if f"{section}.{name}" in fitted:
+            continue
         used = _used_in_words(f"{section}.{name}", value)
         rows.append(
             f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
         )
-    facts = _list([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
+    facts = bullets([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
     heads = ["quantity", "value used", "given as"]
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
 
@@ -799,6 +804,10 @@ def _used_in_words(key: str, value: Any) -> str:
     units = (KEYS[key].unit if key in KEYS else "-").split(", ")
     numbers_with_units = zip(values, cycle(units))
     return ", ".join(PLANE if number == math.inf else worded(number, unit) for number, unit in numbers_with_units)
+
+
+# How an input was given that a fit found.
+BY_FIT = "fitted"
 
 
 def _is_short_form(section: str, given: dict[str, Any]) -> bool:
@@ -825,10 +834,10 @@ def _method(prepared: Prepared, result: CurveResult | TransientResult, estimate:
     heads = estimate.table[0]
     rows = [_cells(row) for row in estimate.table[1:]]
     return (
-        _list([sentence(line) for line in lines])
-        + _list([sentence(line) for line in surface])
+        bullets([sentence(line) for line in lines])
+        + bullets([sentence(line) for line in surface])
         + "<details><summary>Estimate before the solve</summary>"
-        + _list([sentence(line) for line in planned])
+        + bullets([sentence(line) for line in planned])
         + f"<p>{escape(sentence(TABLE_CAPTION))}</p>"
         + table(heads, rows)
         + "</details>"
@@ -887,14 +896,14 @@ def _cells(texts: Iterable[str]) -> str:
     return "".join(f'<td class="number">{escape(text)}</td>' for text in texts)
 
 
-def _paragraphs(sentences: Iterable[str]) -> str:
+def paragraphs(sentences: Iterable[str]) -> str:
     """Return the first sentence as the answer, the others as a paragraph."""
     first, *others = [escape(text) for text in sentences] or [""]
     more = f"<p>{' '.join(others)}</p>" if others else ""
     return f'<p class="answer">{first}</p>{more}' if first else ""
 
 
-def _list(lines: Sequence[str], otherwise: str = "", kind: str = "") -> str:
+def bullets(lines: Sequence[str], otherwise: str = "", kind: str = "") -> str:
     if not lines:
         return f"<p>{escape(otherwise)}</p>" if otherwise else ""
     return f'<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'

@@ -5,25 +5,40 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
 import time
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import studies
-from .._base import plain, validate
+from .._base import files, plain, validate
 from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..quantities import KEYS, counted, worded_value
+from ..scene import given_tables
 from ..units import number_and_unit, numbers_of, with_interval, worded
 from .command_line import scene_of
-from .commands import CommandStart, answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
+from .commands import (
+    CommandStart,
+    answer,
+    check_outputs,
+    keeping,
+    made,
+    map_checksums,
+    moment_reports,
+    paced,
+    run_folder,
+    say,
+)
 from .fit_picture import drawn_record, plot_fit
+from .fit_report import fit_page
 from .progress import ProgressLine
 from .run_files import RESOLVED_SCENE, RESOLVED_STUDY
 from .study_pictures import STUDY_PICTURE, plot_study
@@ -165,14 +180,14 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
 
 
 def run_fit(arguments: Namespace) -> None:
-    """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
+    """Say what it will cost, search, and write fitted.toml, fit.png, report.html and, last, fit.json."""
     for name in ("measured", "coefficient"):
         if getattr(arguments, name) is None:
             raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")
     if (arguments.speed is None) == (arguments.ratio is None):
         raise InputError("a measured curve is over one quantity; give --speed or --ratio, the heading of its column")
     scene = scene_of(arguments)
-    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
+    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "report.html", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
     bounds = _bounds(arguments.parameter)
     begun = CommandStart.now()
@@ -180,6 +195,8 @@ def run_fit(arguments: Namespace) -> None:
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
     measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
+    checksums = {str(arguments.measured): files.checksum_of_file(arguments.measured)} | map_checksums(scene)
+    given = given_tables(arguments.scene)
     say(studies.explain_fit(scene, measured, bounds, starts=arguments.starts))
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
@@ -188,13 +205,14 @@ def run_fit(arguments: Namespace) -> None:
                 f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} of the stated deviations"
             )
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
-            passed = f"{begun.seconds:.0f} s, about {studies.in_words(left)} left"
+            to_come = f"about {studies.in_words(left)} left" if done < total else "the last one that was expected"
+            passed = f"{begun.seconds:.0f} s, {to_come}"
             state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
             if math.isnan(misfit):
-                state = f"search, curve {done} of about {total}: best values so far {place}"
+                state = f"search by the load-sharing model, curve {done} of about {total}: the fit begins near {place}, if no lower curve follows"
             say(f"{state}; {passed}")
 
-    with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
+    with keeping(lambda: f"the points solved so far are kept in {arguments.out}"), progress_to(moment_reports()):
         fitted = studies.fit(
             scene, measured, bounds, starts=arguments.starts, store=arguments.out, on_progress=on_progress
         )
@@ -202,8 +220,34 @@ def run_fit(arguments: Namespace) -> None:
     with run_folder(arguments.out, begun) as folder:
         folder.add("fitted.toml", lambda: fitted.to_toml().encode())
         folder.draw("fit.png", plot_fit, drawn_record(fitted))
+        made_of = {
+            "command": _fit_command(arguments),
+            "sha256": checksums,
+            "curves": fitted.report.evaluations,
+            "seconds": begun.seconds,
+        }
+        page = partial(fit_page, given=given, record=made_of)
+        folder.add("report.html", page, fitted, folder.contents)
         folder.add("fit.json", lambda: json.dumps(plain(_record(fitted)), indent=1).encode())
         folder.put()
+
+
+def _fit_command(arguments: Namespace) -> str:
+    """Return the command that repeats a fit."""
+    options = {
+        "surface": arguments.surface,
+        "counterface": arguments.counterface,
+        "measured": arguments.measured,
+        "speed": arguments.speed,
+        "ratio": arguments.ratio,
+        "coefficient": arguments.coefficient,
+        "deviation": arguments.deviation,
+        "starts": arguments.starts,
+    }
+    words = [word for name, value in options.items() if value is not None for word in (f"--{name}", str(value))]
+    words += ["--without-rolling"] if arguments.without_rolling else []
+    words += [word for text in arguments.parameter for word in ("--parameter", text)]
+    return shlex.join(("lubfric", "fit", str(arguments.scene), *words))
 
 
 def _has_unit(word: str) -> bool:

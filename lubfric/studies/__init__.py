@@ -16,7 +16,7 @@ from .law import Law, law_of
 from .main_effects import main_effects
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study, scenes_of
-from .points import UNUSED
+from .points import SPEED, UNUSED
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
 from .sweep import StribeckResult, TractionResult, stribeck, traction

@@ -17,7 +17,7 @@ from ..quantities import counted, worded_value
 from ..scene import Scene
 from .explain import WITHIN_WORDS, in_words
 from .fit_checks import residual_tests, root_mean_square
-from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
+from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance, linear_place
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
 from .fit_profile import Profile, flat_parameters, follow
 from .fit_result import AT_BOUND, FitResult
@@ -34,9 +34,17 @@ LAST_CHANGE_OF_SUM = 1e-4
 # Most curves of the search, beside those of the differences. A choice: a bound of the work.
 MOST_CURVES = 30
 
-# Curves of the search by the scene's own model, about, beside two for each parameter: 3 to 5 were computed for one
-# parameter, 5 for two.
+# Curves of the fit by the scene's own model, about, beside two for each parameter whose change takes a solve: at the start
+# and at the fitted values.
 USUAL_CURVES = 2
+
+# Beginnings of the trust region, at most: at a start, and again at fitted values that were not solved yet, or at a lower curve
+# of the differences. A choice: a bound of the work.
+MOST_BEGINNINGS = 6
+
+# Curves of a parameter that f does not change with at the fit, about: at both bounds, and to the end of its interval. A
+# choice between two, where f changes nowhere, and those of an interval with one end (`MOST_FOLLOWED`).
+USUAL_FOLLOWED = 5
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
 MOST_FITTED_MINIMA = 3
@@ -88,7 +96,7 @@ def fit(
     start : {"section.key": value} to begin with; default: the scene's own if they lie within the bounds, else the
         middle
     starts : number of further starts, spread over the bounds: 0, or a power of two; None: 8 for one parameter, 16 for
-        two, 32 for three to five
+        two, 32 for three to five, not counting f_b, in which f is linear
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     store : folder that receives every point at once; the same fit continues from there
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about
@@ -106,19 +114,17 @@ def fit(
     validate.called_back("on_progress", on_progress, "done, total, left, misfit, values")
     bounds = _checked(scene, measured, parameters)
     begin = _start(scene, bounds, {} if start is None else start)
-    starts = _checked_starts(starts, len(bounds))
+    starts = _checked_starts(scene, starts, bounds)
     with opened(store) as kept:
         coarse, fine = _curves(scene, measured, bounds, checked_executor(executor), kept.root)
-        progress = None
         if on_progress:
             progress = _Progress(coarse, fine, begin, starts, on_progress)
             coarse.on_curve = partial(progress.report, coarse)
             fine.on_curve = partial(progress.report, fine)
-        minima = search_minima(coarse, begin, starts)
+        minima = search_minima(coarse, begin, starts, linear_place=coarse.linear_place)
         results: list[FitResult] = []
         for minimum in (minima[0], *(each for each in minima[1:] if each.is_separate))[:MOST_FITTED_MINIMA]:
-            if progress is not None:
-                progress.begin()
+            fine.expected = fine.count + _usual_curves(fine)
             results.append(_fitted(fine, minimum.unit, starts=starts, minima=minima))
             if results[-1].describes_data and results[-1].report.converged:
                 break
@@ -146,7 +152,7 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
     InputError : a parameter is not one
     """
     bounds = _checked(scene, measured, parameters)
-    starts = _checked_starts(starts, len(bounds))
+    starts = _checked_starts(scene, starts, bounds)
     count = counted(len(bounds), "parameters")
     lines = [f"fit of {count} of {scene.name} to {counted(measured.x.size, 'points')} of {measured.source}"]
     if len(measured.branches) > 1:
@@ -174,14 +180,19 @@ def estimated_fit(
     """Return the estimated processor seconds of a fit; arguments as for `lubfric.fit`."""
     bounds = _checked(scene, measured, parameters)
     coarse, fine = _curves(scene, measured, bounds)
-    return _estimated(coarse, fine, _start(scene, bounds, {}), _checked_starts(starts, len(bounds)))[2]
+    return _estimated(coarse, fine, _start(scene, bounds, {}), _checked_starts(scene, starts, bounds))[2]
 
 
 def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int) -> tuple[int, int, float]:
     """Return about how many curves the search and the fit compute, and their processor seconds."""
-    searched = estimated_curves(begin.size, starts)
-    fitted = 2 * begin.size + USUAL_CURVES
+    searched = estimated_curves(coarse.changed, starts)
+    fitted = _usual_curves(fine)
     return searched, fitted, searched * _usual_seconds(coarse, begin) + fitted * _usual_seconds(fine, begin)
+
+
+def _usual_curves(fine: FitCurves) -> int:
+    """Return about how many curves a trust region solves."""
+    return 2 * fine.changed + USUAL_CURVES
 
 
 def _curves(
@@ -208,14 +219,15 @@ def _checked(scene: Scene, measured: Measured, parameters: Mapping[str, Any]) ->
     return bounds
 
 
-def _checked_starts(starts: int | None, parameters: int) -> int:
-    """Return the number of starts of the search; raises `InputError`."""
+def _checked_starts(scene: Scene, starts: int | None, bounds: dict[str, Between]) -> int:
+    """Return the number of starts of the search; raises `InputError`. A fit of f_b alone has one minimum and needs none."""
+    changed = len(bounds) - (linear_place(scene, bounds) is not None)
     if starts is None:
-        return sobol_count(parameters)
+        starts = sobol_count(changed) if changed else 0
     starts = validate.integer("starts", starts, minimum=0, maximum=2**12)
     if starts & (starts - 1):
         raise InputError(f" = {starts} of a Sobol sequence", "starts", "0, or a power of two")
-    return starts
+    return starts if changed else 0
 
 
 def _start(scene: Scene, bounds: dict[str, Between], start: dict[str, float]) -> np.ndarray:
@@ -249,21 +261,14 @@ class _Progress:
     def __init__(
         self, coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int, on_progress: Callable[..., Any]
     ):
-        self.expected_of_fit = 2 * begin.size + USUAL_CURVES
-        self.expected = {
-            id(coarse): estimated_curves(begin.size, starts),
-            id(fine): self.expected_of_fit,
-        }
+        coarse.expected = estimated_curves(coarse.changed, starts)
+        fine.expected = _usual_curves(fine)
         self.curves = {id(kind): (kind, _usual_seconds(kind, begin)) for kind in (coarse, fine)}
         self.fine = fine
         self.on_progress = on_progress
         self.least: dict[int, tuple[float, np.ndarray]] = {}
         self.elapsed = dict.fromkeys(self.curves, 0.0)
         self.reported = time.perf_counter()
-
-    def begin(self) -> None:
-        """Report that the fit begins, from one more minimum: it takes as many curves as the first was expected to."""
-        self.expected[id(self.fine)] = self.fine.count + self.expected_of_fit
 
     def report(self, curves: FitCurves) -> None:
         """Report the last of ``curves``.
@@ -274,7 +279,11 @@ class _Progress:
         now = time.perf_counter()
         self.elapsed[id(curves)] += now - self.reported
         self.reported = now
-        unit = curves.last
+        if curves.count > curves.expected:  # the steps go on: one more, with its differences
+            curves.expected = curves.count + max(curves.changed, 1)
+        unit = curves.solved[-1]
+        if curves is not self.fine:
+            unit = curves.lowest_over_boundary_friction(unit)
         misfit = curves.misfit(unit)
         if misfit < self.least.get(id(curves), (np.inf, unit))[0]:
             self.least[id(curves)] = (misfit, unit)
@@ -285,9 +294,8 @@ class _Progress:
         expected_so_far = sum(kind.count * estimated for kind, estimated in self.curves.values())
         slower = sum(taken.values()) / expected_so_far if expected_so_far > 0 else 1.0
         for kind, estimated in self.curves.values():
-            expected = self.expected[id(kind)]
-            ended = kind is not self.fine and self.fine.count > 0
-            remaining = 0 if ended else max(expected - kind.count, 1 if kind is self.fine else 0)
+            is_ended = kind is not self.fine and self.fine.count > 0
+            remaining = 0 if is_ended else max(kind.expected - kind.count, 0)
             each = taken[id(kind)] / kind.count if kind.count else slower * estimated
             total += remaining
             left += remaining * each
@@ -309,6 +317,7 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
         jacobian = result.slopes / result.measured.scale[:, None]
         profiles: dict[str, Profile] = {}
         followed.update(flat_parameters(jacobian, result.variance, result.student))
+        fine.expected = fine.count + USUAL_FOLLOWED * len(followed - {fine.linear_place})
         for place in sorted(followed):
             profile = follow(fine, result.unit, jacobian, place=place, variance=result.variance, student=result.student)
             profiles[list(result.parameters)[place]] = profile
@@ -326,23 +335,53 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
     return result
 
 
-def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:
-    """Return the result of a trust region that begins at ``begin`` (p,)."""
+def _least(curves: FitCurves, begin: np.ndarray) -> tuple[np.ndarray, str, int]:
+    """Return the position (p,) of the solved curve at which a trust region from ``begin`` (p,) ends, its status, and the
+    number of its steps.
+
+    It begins again where f_b alone has moved, so that the curve is not solved yet, until it moves by no more than
+    `LAST_MOVE`; and where a curve of the differences has a smaller sum of squares.
+    """
     from scipy.optimize import least_squares
 
     measured = curves.measured
     limits: dict[str, Any] = {"xtol": LAST_MOVE, "ftol": LAST_CHANGE_OF_SUM, "gtol": 1e-12, "max_nfev": MOST_CURVES}
-    end = least_squares(
-        curves.residuals,
-        begin,
-        lambda unit: curves.slopes(unit) / measured.scale[:, None],
-        bounds=(0.0, 1.0),
-        **limits,
-    )
-    points = curves.points(end.x)
-    predicted = curves.coefficient(end.x)
-    n, p = end.jac.shape
-    squares = float(end.fun @ end.fun)
+    known_before = curves.count
+    steps = 0
+    for _ in range(MOST_BEGINNINGS):
+        curves.points(begin)
+        end = least_squares(
+            curves.residuals,
+            begin,
+            lambda unit: curves.slopes(unit) / measured.scale[:, None],
+            bounds=(0.0, 1.0),
+            **limits,
+        )
+        steps += int(end.nfev)
+        if end.status <= 0:
+            return end.x, ITERATION_LIMIT, steps
+        unit = end.x if curves.is_solved(end.x) else begin
+        if np.abs(end.x - unit).max() <= LAST_MOVE:
+            lowest = min([unit, *curves.solved[known_before:]], key=curves.misfit)
+            if curves.misfit(lowest) ** 2 >= (1.0 - LAST_CHANGE_OF_SUM) * curves.misfit(unit) ** 2:
+                return unit, CONVERGED, steps
+            curves.forget_slopes()
+            begin = lowest
+        else:
+            begin = end.x
+    return unit, ITERATION_LIMIT, steps
+
+
+def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:
+    """Return the result of a trust region that begins at ``begin`` (p,), at a solved curve."""
+    measured = curves.measured
+    (unit, status, iterations) = _least(curves, begin)
+    residuals = curves.residuals(unit)
+    jacobian = curves.slopes(unit) / measured.scale[:, None]
+    points = curves.points(unit)
+    predicted = curves.coefficient(unit)
+    n, p = jacobian.shape
+    squares = float(residuals @ residuals)
     stated = measured.deviation is not None
     model_error = np.array([point.uncertainty.model for point in points])
     coefficient = np.array([point.coefficient for point in points])
@@ -351,16 +390,15 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
     numerical = np.abs(relative * coefficient / measured.scale)
     variance = 1.0 if stated else squares / (n - p)
     variance += float(np.mean(numerical**2))  # the data do not see a change of f below its numerical error
-    _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
+    _, singular, axes = np.linalg.svd(jacobian, full_matrices=False)
     effect = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
-    is_free = np.minimum(end.x, 1.0 - end.x) >= AT_BOUND
+    is_free = np.minimum(unit, 1.0 - unit) >= AT_BOUND
     scale = measured.scale if stated else predicted  # without the noise of the measured f
-    status = CONVERGED if end.status > 0 else ITERATION_LIMIT
     advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
     report = Report(
         "fit, trust region",
         status,
-        iterations=int(end.nfev),
+        iterations=iterations,
         residual=0.0 if status == CONVERGED else 1.0,
         tolerance=LAST_MOVE,
         residuals={"sum of squares": squares},
@@ -371,17 +409,17 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         base=curves.scene,
         measured=measured,
         parameters=curves.parameters,
-        unit=np.clip(end.x, 0.0, 1.0),
+        unit=np.clip(unit, 0.0, 1.0),
         unit_covariance=variance * (axes.T / effect**2) @ axes,
         predicted=predicted,
-        slopes=end.jac * measured.scale[:, None],
+        slopes=jacobian * measured.scale[:, None],
         report=report,
         violations=tuple(point.validity for point in points),
         sampling=np.array([point.uncertainty.sampling for point in points]),
         tests=residual_tests(
             measured.x,
-            end.fun * measured.scale / scale,
-            (end.jac * (measured.scale / scale)[:, None])[:, is_free],
+            residuals * measured.scale / scale,
+            (jacobian * (measured.scale / scale)[:, None])[:, is_free],
             numerical,
             stated=stated,
             fitted=predicted,
@@ -393,4 +431,5 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         starts=starts,
         minima=tuple(minima),
         variance=variance,
+        points=points,
     )

@@ -23,6 +23,9 @@ DOUBTED = 0.05
 # of .01 is known to 10 % from them.
 RANDOM_RESIDUALS = 9999
 
+# Probability of residuals that is stated as that or less. A choice: smaller ones are not known from so many.
+RAREST = 1e-3
+
 # Numbers in these, at most: more points are compared with fewer. A choice, for memory.
 MOST_NUMBERS = 5_000_000
 
@@ -111,8 +114,7 @@ class ResidualTests:
         """Why the fit does not describe the data, in a sentence; "" if it does as far as the tests show."""
         how = []
         if self.systematic:
-            chance = f"probability by chance {self.chance:.1g}{self._cause}"
-            how.append(f"the residuals are systematic ({chance})")
+            how.append(f"the residuals are systematic: {self._rarity}{self._cause}")
         if self.too_large:
             how.append(f"they are {self.times_stated:.2g} times as large as the stated deviations")
         if self.too_far:
@@ -123,7 +125,7 @@ class ResidualTests:
             )
         if not how:
             return ""
-        how_in_words = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
+        how_in_words = "; and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
         return (
             f"the fit does not describe the data: {how_in_words}. The intervals are not valid. Choose other parameters, wider "
             "bounds or another model, or check the data"
@@ -139,10 +141,20 @@ class ResidualTests:
             return "the residuals are within the numerical error of f"
         if self.doubtful:
             return (
-                f"the residuals are not random: probability by chance {self.chance:.1g}{self._cause}; the fit may not "
-                "describe the data, and the intervals, which assume random residuals, may be too narrow"
+                f"the residuals may be systematic: {self._rarity}{self._cause}. The fit may not describe the data then, and "
+                "the intervals, which assume random scatter, may be too narrow"
             )
-        return f"the intervals assume random residuals; the residuals may be random (probability by chance {self.chance:.2g})"
+        return (
+            "the residuals look like random scatter, which the intervals assume: neither their order nor an offset or a factor "
+            "of the measured f shows a systematic deviation"
+        )
+
+    @property
+    def _rarity(self) -> str:
+        """How often random scatter leaves residuals as regular as these, in a sentence."""
+        if self.chance <= RAREST:
+            return f"random scatter leaves residuals as regular in fewer than 1 of {1 / RAREST:.0f} measurements"
+        return f"random scatter leaves residuals as regular in about 1 of {float(f'{1 / self.chance:.1g}'):.0f} measurements"
 
     @property
     def _cause(self) -> str:

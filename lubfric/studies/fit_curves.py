@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from .._base.processes import spread
+from .._base.progress import report_progress
 from ..errors import LubfricError
 from ..estimate import FrictionResult
 from ..models import prepare
 from ..models.shared import Prepared
-from ..scene import Scene
+from ..scene import BOUNDARY_FRICTION_KEY, Scene
 from .curve import without_rolling
 from .explain import curve_seconds
 from .fit_input import SPEED, Measured, values_at
@@ -50,7 +51,11 @@ class FitCurves:
     """Curves of ``scene`` at the points of ``measured``, for positions of ``parameters`` between their bounds.
 
     A position ``unit`` (p,) is 0 at the lower and 1 at the upper bound of each parameter. ``on_curve`` is called
-    without arguments after every curve that was computed.
+    without arguments after every curve that was solved.
+
+    A curve that differs from a solved one in f_b alone is not solved: at a given division of the load f is linear in f_b,
+    as in the range of f_b of a point (`lubfric.estimate.ranges`). Where heat, or the calibration of the quick model, changes
+    with f_b, it is so to first order, and `solve` shows the difference.
     """
 
     def __init__(
@@ -66,6 +71,8 @@ class FitCurves:
         self.parameters = parameters
         self.tolerance = scene.numerics.tolerance
         self.on_curve: Callable[[], None] = lambda: None
+        self.linear_place = linear_place(scene, parameters)
+        self.expected = 0  # curves that will be solved, about, with those that are
         self._executor = executor
         self._folder = folder
         self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
@@ -74,19 +81,28 @@ class FitCurves:
         self._prepared: Prepared | None = None
 
     @property
-    def last(self) -> np.ndarray:
-        """The position of the curve that was computed last, (p,)."""
-        return np.frombuffer(list(self._curves)[-1])
+    def solved(self) -> list[np.ndarray]:
+        """The positions of the curves that were solved, each (p,), in their order."""
+        return [np.frombuffer(key) for key in self._curves]
 
     @property
     def count(self) -> int:
-        """Number of curves that were computed."""
+        """Number of curves that were solved."""
         return len(self._curves)
+
+    @property
+    def changed(self) -> int:
+        """Number of the parameters whose change takes a solve."""
+        return len(self.parameters) - (self.linear_place is not None)
 
     @property
     def spent(self) -> float:
         """Seconds that the points of these curves took."""
         return sum(point.seconds for curve in self._curves.values() for point in curve)
+
+    def is_solved(self, unit: np.ndarray) -> bool:
+        """Return whether the curve at ``unit`` is solved."""
+        return unit.tobytes() in self._curves
 
     def points(self, unit: np.ndarray) -> tuple[FrictionResult, ...]:
         """Return the points of the curve at ``unit``. Raises the `LubfricError` of a point that fails."""
@@ -101,7 +117,10 @@ class FitCurves:
                 places = [(model, key_of(model), speed) for model in at_ratios(prepared, x)]
             once = {(key, u): model for model, key, u in places}  # ramps may have points at one speed
             jobs = [partial(solved, model, key, (u,), folder=self._folder) for (key, u), model in once.items()]
-            outcomes = {(key, u): outcome for key, u, outcome in spread(self._executor, jobs)}
+            outcomes = {}
+            for key, u, outcome in spread(self._executor, jobs):
+                outcomes[key, u] = outcome
+                report_progress("points of this curve", len(outcomes), len(jobs))
             points = tuple(outcomes[key, u] for _, key, u in places)
             for failure in (outcome for outcome in points if isinstance(outcome, LubfricError)):
                 raise failure
@@ -110,9 +129,62 @@ class FitCurves:
         return self._curves[unit.tobytes()]
 
     def coefficient(self, unit: np.ndarray) -> np.ndarray:
-        """Return f (n,), with or without the rolling part of the film's force, as was measured."""
-        points = self.points(unit)
+        """Return f (n,), with or without the rolling part of the film's force, as was measured; from the nearest solved curve
+        that differs in f_b alone, if there is one."""
+        known = self._known_balance(unit)
+        if known is None:
+            return self._measured_part(self.points(unit))
+        f = self._measured_part(self.points(known))
+        if known is unit:
+            return f
+        change = self._boundary_friction(unit) - self._boundary_friction(known)
+        return f + change * self._per_boundary_friction(known)
+
+    def lowest_over_boundary_friction(self, unit: np.ndarray) -> np.ndarray:
+        """Return ``unit`` with the f_b of the least sum of squares, at the balances of the curve there; ``unit`` itself where f
+        does not change with f_b, or f_b is no parameter."""
+        place = self.linear_place
+        known = self._known_balance(unit)
+        if place is None or known is None or self._boundary_friction(known) == 0.0:
+            return unit
+        per_friction = self._per_boundary_friction(known) / self.measured.scale
+        if not np.any(per_friction):
+            return unit
+        change = -float(per_friction @ self.residuals(unit)) / float(per_friction @ per_friction)
+        bounds = list(self.parameters.values())[place]
+        value = min(max(self._boundary_friction(unit) + change, bounds.low), bounds.high)
+        moved = unit.copy()
+        moved[place] = bounds.share(value)
+        return moved
+
+    def _measured_part(self, points: tuple[FrictionResult, ...]) -> np.ndarray:
+        """Return f of ``points`` (n,), with or without the rolling part of the film's force, as was measured."""
         return np.array([p.coefficient if self.measured.rolling else without_rolling(p) for p in points])
+
+    def _boundary_friction(self, unit: np.ndarray) -> float:
+        """Return f_b at ``unit``, a parameter."""
+        return values_at(self.parameters, unit)[BOUNDARY_FRICTION_KEY]
+
+    def _per_boundary_friction(self, unit: np.ndarray) -> np.ndarray:
+        """Return df/df_b (n,) of the solved curve at ``unit``, whose f_b is above 0: the part of the load with the stress f_b p."""
+        per_load = [point.boundary_force / (point.contact_load + point.film_load) for point in self.points(unit)]
+        return np.array(per_load) / self._boundary_friction(unit)
+
+    def _known_balance(self, unit: np.ndarray) -> np.ndarray | None:
+        """Return ``unit`` if the curve there is solved, else the position of the nearest solved curve that differs in f_b
+        alone; None: there is none."""
+        if self.is_solved(unit):
+            return unit
+        place = self.linear_place
+        if place is None:
+            return None
+        others = np.delete(unit, place)
+        alike = [
+            solved
+            for solved in self.solved
+            if np.array_equal(np.delete(solved, place), others) and self._boundary_friction(solved) > 0.0
+        ]
+        return min(alike, key=lambda solved: abs(solved[place] - unit[place]), default=None)
 
     def residuals(self, unit: np.ndarray) -> np.ndarray:
         """Return computed minus measured f over the scale of the measured points, (n,)."""
@@ -123,17 +195,23 @@ class FitCurves:
         return float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """Return df/d(unit), (n, p), by differences over `PARAMETER_STEP`. Slopes at most that far away are used unchanged."""
-        if np.abs(unit - self._slopes_at).max() <= PARAMETER_STEP:
+        """Return df/d(unit), (n, p): by f_b at the balances of the curve, by the others from differences over
+        `PARAMETER_STEP`. Differences at most that far away are used unchanged."""
+        if np.abs(unit - self._slopes_at).max() > PARAMETER_STEP:
+            columns = []
+            for i in range(unit.size):
+                moved = unit.copy()
+                moved[i] += PARAMETER_STEP if moved[i] + PARAMETER_STEP <= 1.0 else -PARAMETER_STEP  # within the bounds
+                columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
+            self._slopes_at = unit.copy()
+            self._slopes = np.stack(columns, axis=1)
+        place = self.linear_place
+        known = self._known_balance(unit)
+        if place is None or known is None or self._boundary_friction(known) == 0.0:
             return self._slopes
-        columns = []
-        for i in range(unit.size):
-            moved = unit.copy()
-            moved[i] += PARAMETER_STEP if moved[i] + PARAMETER_STEP <= 1.0 else -PARAMETER_STEP  # within the bounds
-            columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
-        self._slopes_at = unit.copy()
-        self._slopes = np.stack(columns, axis=1)
-        return self._slopes
+        slopes = self._slopes.copy()
+        slopes[:, place] = self._per_boundary_friction(known) * list(self.parameters.values())[place].slope(unit[place])
+        return slopes
 
     def forget_slopes(self) -> None:
         """Compute the slopes anew, also near a position where they are known: beside an edge of f they differ."""
@@ -159,6 +237,14 @@ class FitCurves:
             return seconds + curve_seconds(prepared, x, has_new_map=has_new_map)
         speed = [prepared.scene.motion.entrainment_speed]
         return seconds + sum(curve_seconds(model, speed, has_new_map=False) for model in at_ratios(prepared, x))
+
+
+def linear_place(scene: Scene, parameters: dict[str, Between]) -> int | None:
+    """Return the place of f_b among the ``parameters`` if f is linear in it at a given division of the load; None: it is no
+    parameter, or bounds the stress of the film as well."""
+    if BOUNDARY_FRICTION_KEY not in parameters or scene.lubricant.is_limited_by_boundary_friction:
+        return None
+    return list(parameters).index(BOUNDARY_FRICTION_KEY)
 
 
 def fit_tolerance(scene: Scene, measured: Measured) -> float:

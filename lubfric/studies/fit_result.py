@@ -10,6 +10,7 @@ import numpy as np
 
 from .._base import Renamed, Shown, figures
 from ..errors import Report
+from ..estimate import FrictionResult, cite_together
 from ..models.shared import Violation, gathered, percent
 from ..quantities import counted, worded_value
 from ..scene import Scene
@@ -71,6 +72,7 @@ class FitResult(Renamed, Shown):
     model_error : relative model-form error of f at the points at 95 %, (n,); NaN where it is not known. It is not in the
         covariance
     variance : s², of the residuals over the scale of the measured points
+    points : results at the measured points, (n,), without fields
     profiles : by key, the curves over the bounds of parameters that f does not change with at the fit
         (`lubfric.studies.fit_profile.Profile`). Their intervals come from these, and not from the covariance
     """
@@ -92,6 +94,7 @@ class FitResult(Renamed, Shown):
     minima: tuple[Candidate, ...] = ()
     variance: float = math.nan
     profiles: dict[str, Profile] = field(default_factory=dict)
+    points: tuple[FrictionResult, ...] = ()
 
     @property
     def values(self) -> dict[str, float]:
@@ -221,8 +224,25 @@ class FitResult(Renamed, Shown):
         effects = dict(zip(self.parameters, relative.tolist()))
         return effects | {key: profile.change for key, profile in self.profiles.items()}
 
-    def _identifiability(self) -> list[str]:
-        """Return what the data do not show of the parameters, one sentence each."""
+    def cite(self, format: str = "text") -> str:
+        """Return the publications of the methods used at the points, the model's first: one a line, or with ``format``
+        "bibtex" as BibTeX entries."""
+        return cite_together(self.points, format)
+
+    @property
+    def rms_deviation(self) -> float:
+        """Root mean square deviation of the measured points from the fitted curve, relative to the measured f."""
+        return float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
+
+    @property
+    def not_in_intervals(self) -> tuple[str, ...]:
+        """What the intervals of the parameters do not include, one text each."""
+        return tuple(filter(None, (self._model_note(), self._surface_note())))
+
+    @property
+    def identifiability(self) -> tuple[str, ...]:
+        """What the data do not show of the parameters, one text each: which they do not determine or not separate, and other
+        minima."""
         lines = []
         for key in self.undetermined:
             change = self.effects[key]
@@ -252,7 +272,7 @@ class FitResult(Renamed, Shown):
         if len(minima) > MOST_NAMED_MINIMA:
             more = counted(len(minima) - MOST_NAMED_MINIMA, "more minima")
             lines.append(f"fit.json and .other_minima have {more}")
-        return lines
+        return tuple(lines)
 
     def _one_sided(self, key: str) -> str:
         """Return in a sentence that the data do not determine a parameter on one side, where its interval ends at a bound."""
@@ -308,14 +328,12 @@ class FitResult(Renamed, Shown):
             note += " (on its bound)" if key in self.at_bounds else ""
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
-        scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        lines.append(
-            f"  root mean square deviation of the points from the fit: {100 * scatter:.2g} % of the measured f"
-        )
+        scatter = f"{100 * self.rms_deviation:.2g} % of the measured f"
+        lines.append(f"  root mean square deviation of the points from the fit: {scatter}")
         if self.tests is not None and self.tests.note:
             lines.append(f"  {self.tests.note}")
-        warnings = (*self._identifiability(), self._model_note(), self._surface_note(), *self.validity)
-        return "\n".join([*lines, *(f"  {text}" for text in warnings if text)])
+        warnings = (*self.identifiability, *self.not_in_intervals, *self.validity)
+        return "\n".join([*lines, *(f"  {text}" for text in warnings)])
 
     def _facts(self) -> dict[str, str]:
         facts = {k: f"{self.values[k]:.4g}, 95 % interval {a:.4g} to {b:.4g}" for k, (a, b) in self.intervals.items()}

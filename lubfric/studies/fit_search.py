@@ -2,7 +2,8 @@
 
 The first curves are those at the start and at the points of a Sobol sequence. Their residuals are interpolated by
 radial basis functions over the parameters. The minima of the interpolated sum of squares are solved for, each new curve
-improves the interpolation, and the search ends when its minima are curves that are known. (Surrogate optimisation: R.
+improves the interpolation, and the search ends when its minima are curves that are known. Along f_b, in which f is linear at
+a balance, further curves take no solve: there the search sees several for each solved one. (Surrogate optimisation: R.
 G. Regis and C. A. Shoemaker, INFORMS J. Comput. 19 (2007) 497-509, doi:10.1287/ijoc.1060.0182. Here the residuals are
 interpolated instead of their sum of squares, which keeps the Gauss-Newton structure.)
 """
@@ -27,6 +28,10 @@ REFINEMENTS_PER_PARAMETER = 3
 # Curves at minima of the interpolation that are expected for each parameter: one and two parameters took one and two
 # in the fits of `python -m verification.campaigns.estimates`.
 USUAL_REFINEMENTS = 1
+
+# Positions along f_b, as shares of the bounds, of the curves that follow from a solved one. A choice: they cost no solve, and
+# three would hold all residuals where f_b is on a linear scale.
+ALONG_LINEAR = (0.02, 0.26, 0.5, 0.74, 0.98)
 
 # Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice: fewer may miss a
 # minimum.
@@ -69,22 +74,32 @@ def sobol_count(parameters: int) -> int:
     return min(2 ** math.ceil(math.log2(SOBOL_PER_PARAMETER * parameters)), MOST_SOBOL)
 
 
-def estimated_curves(parameters: int, starts: int) -> int:
-    """Return about how many coarse curves `search_minima` computes, from so many ``starts`` of a Sobol sequence."""
-    return 1 + starts + USUAL_REFINEMENTS * parameters if starts else 0
+def estimated_curves(changed: int, starts: int) -> int:
+    """Return about how many coarse curves `search_minima` solves, from so many ``starts`` of a Sobol sequence; ``changed``:
+    number of parameters whose change takes a solve."""
+    return 1 + starts + USUAL_REFINEMENTS * changed if starts else 0
 
 
-def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Candidate]:
+def search_minima(
+    curves: FitCurves, start: np.ndarray, starts: int, *, linear_place: int | None = None
+) -> list[Candidate]:
     """Return the minima of the residuals of the coarse ``curves``, the lowest first, each more than `SAME_MINIMUM`
-    from the others. ``starts``: number of points of the Sobol sequence (0: only ``start`` is returned).
+    from the others.
 
     A curve with a point that cannot be solved is omitted. Raises `ConvergenceError` if there is no other.
+
+    Parameters
+    ----------
+    starts : number of points of the Sobol sequence (0: only ``start`` is returned)
+    linear_place : of the parameter among the positions whose change takes no solve (`FitCurves.linear_place`); None: none
     """
     from scipy.stats import qmc
 
     if not starts:
         return [Candidate(start, math.nan)]
-    first = [start, *qmc.Sobol(start.size, seed=0).random(starts)]
+    changed = [place for place in range(start.size) if place != linear_place]
+    first = np.tile(start, (1 + starts, 1))
+    first[1:, changed] = qmc.Sobol(len(changed), seed=0).random(starts)
     units: list[np.ndarray] = []
     residuals: list[np.ndarray] = []
     failure: LubfricError | None = None
@@ -98,13 +113,25 @@ def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Can
         except LubfricError as error:
             failure = error
 
-    for unit in first:
+    def add_along(unit: np.ndarray) -> None:
+        """Add the curve at ``unit``, and those that follow from it without a solve."""
+        before = len(units)
         add(unit)
+        if linear_place is None or len(units) == before:
+            return
+        for share in ALONG_LINEAR:
+            moved = unit.copy()
+            moved[linear_place] = share
+            if abs(share - units[before][linear_place]) > KNOWN_DISTANCE:
+                add(moved)
+
+    for unit in first:
+        add_along(unit)
     if failure is not None and not units:
         raise failure
     tried = list(units)
     for _ in range(2 + REFINEMENTS_PER_PARAMETER * start.size):
-        if len(units) <= start.size + 1:
+        if len(np.unique(np.array(units)[:, changed], axis=0)) <= len(changed) + 1:
             break
         new = _next_position(np.array(units), np.array(residuals), np.array(tried))
         if new is None:

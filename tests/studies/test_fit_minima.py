@@ -48,7 +48,7 @@ def test_a_start_in_a_wrong_minimum_or_without_a_gradient_is_left(stress, limit,
         low, high = result.intervals[key]
         assert low < truth < high and (high - low) / truth < width
     assert result.describes_data and not result.undetermined and "does not describe" not in result.explain()
-    assert "random residuals; the residuals may be random (probability by chance 0." in result.explain()
+    assert "the residuals look like random scatter, which the intervals assume" in result.explain()
 
 
 def test_a_model_that_cannot_follow_the_data_is_said_to():
