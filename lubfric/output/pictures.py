@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from ..time import TransientResult
 
 
+# What the text below the curve lists.
+NOT_FULFILLED = "Assumptions of the model that the marked points do not fulfil (see the warnings)"
+
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3, "temperature": 2.6}  # inch, at the usual width
@@ -233,7 +236,8 @@ def _mark(
             what.rstrip(",") + ("" if n == len(violations) else f" ({n} of {len(violations)} points)")
             for what, n in counts.items()
         )
-        figure.supxlabel(f"not fulfilled: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
+        text = f"{NOT_FULFILLED}: {'; '.join(named)}"
+        figure.supxlabel(text, fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)
 
 

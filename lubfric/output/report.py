@@ -126,7 +126,7 @@ def report_page(
             "date": escape(record["date"]),
             "version": escape(record["versions"]["lubfric"]),
             "curve": _pictures(contents, shows_answer=True),
-            "warnings": warnings_and_notes(result.validity),
+            "warnings": warnings_and_notes([*result.validity, *gap_notes(result)]),
             "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": _pictures(contents, shows_answer=False)
             or "<p>There is no contact or rough surface to show.</p>",
@@ -135,6 +135,11 @@ def report_page(
         }
     )
     return page.encode()
+
+
+def gap_notes(result: CurveResult | TransientResult) -> list[str]:
+    """Return a note for each range in which a traction curve does not determine f; none for other results."""
+    return [f"note: {gap.text}" for gap in result.gaps] if isinstance(result, TractionResult) else []
 
 
 def _pictures(contents: dict[str, bytes], *, shows_answer: bool) -> str:

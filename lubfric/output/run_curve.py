@@ -44,6 +44,7 @@ from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
+from .report import gap_notes
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, names_of_run
 from .study_pictures import plot_study
 
@@ -152,8 +153,11 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
 
         curve = studies.traction(prepared, in_percent(ratios), on_point=on_point, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, estimate, [], measured)
-        for gap in curve.gaps[:MOST_GAPS]:
-            say(f"note: {gap.text}")
+        notes = gap_notes(curve)
+        for note in notes[:MOST_GAPS]:
+            say(note)
+        if len(notes) > MOST_GAPS:
+            say(f"note: report.html names {counted(len(notes) - MOST_GAPS, 'more ranges')} in which f is not known")
     _raise_if_failed(curve)
 
 

@@ -523,7 +523,8 @@ def test_points_with_warnings_are_ringed_also_where_all_are(figures):
     plot_traction("x.png", columns, "title", [(entry,)] * 4)
     solved = np.isfinite(COLUMNS["coefficient"])
     np.testing.assert_array_equal(data(figures[0].axes[0], "with warnings")[0], np.sort(COLUMNS["speed"][solved]))
-    assert figures[0].get_supxlabel() == "not fulfilled: starved"
+    below = "Assumptions of the model that the marked points do not fulfil (see the warnings): starved"
+    assert figures[0].get_supxlabel() == below
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
     plot_traction("x.png", columns | cold, "title", [()] * 4)
     assert len(figures[1].axes) == 3  # no panel of temperatures where none rises

@@ -183,6 +183,10 @@ def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monk
     assert points == 2 * [(x, [0.08, 0.03])]
     error = " ".join(capsys.readouterr().err.split())
     assert error.count("the slide-roll ratio is its column 'SRR [%]', f its column 'mu'") == 2
+    page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+    for note in re.findall(r"note: (between .*? Solve more ratios between them, such as [0-9., ]+\d)", error):
+        assert f"<li>B{note[1:]}.</li>" in page  # the ranges in which f is not known
+    assert ("note: between" in error) == (min(x) > 0)
     wrong = ["plot", folder, "--measured", str(tmp_path / "m.csv"), "--speed", "SRR [%]", "--coefficient", "mu"]
     assert main(wrong) == 2
     assert "--speed is not for a traction curve; give --ratio" in " ".join(capsys.readouterr().err.split())
