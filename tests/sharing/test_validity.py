@@ -12,6 +12,7 @@ import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
     Assumption,
+    Heat,
     Violation,
     gathered,
     gathered_texts,
@@ -20,6 +21,7 @@ from lubfric.models.shared import (
     sentence,
     violations_by_bodies,
     violations_by_deflection,
+    violations_by_heat,
     violations_by_map,
     violations_by_motion,
     violations_by_numerical_error,
@@ -216,7 +218,7 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     (text,) = gathered([(0.1, (slower,)), (3.0, (faster,))])
     assert "above 5 %. At 0.1 m/s: it takes 8.69 s." in text  # of the one point that has these numbers
     (text,) = gathered_texts([in_a_cell([faster]), in_a_cell([slower])])
-    assert text.startswith("At all 2 points: slip is 5.2 to 8.69 %, above 5 %. At point 2: it takes 8.69 s.")
+    assert text.startswith("At points 1 and 2: slip is 5.2 to 8.69 %, above 5 %. At point 2: it takes 8.69 s.")
     (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
     assert "slip is 8 %, above" in alike
 
@@ -236,7 +238,7 @@ def test_a_warning_of_a_table_quotes_the_value_farthest_beyond_its_limit(values,
     "places, words",
     [
         ((1,), "At point 1: slip is 6 %"),
-        ((1, 2, 3, 4, 5), "At all 5 points: slip is 6 to 10 %"),
+        ((1, 2, 3, 4, 5), "At points 1 to 5: slip is 6 to 10 %"),
         ((1, 3), "At points 1 and 3: slip is 6 to 8 %"),
         ((1, 2, 3, 5), "At points 1 to 3 and 5: slip is 6 to 10 %"),
     ],
@@ -292,6 +294,15 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )
     assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""
+
+
+def test_a_warning_of_slow_surfaces_says_why_other_slow_points_have_none():
+    """It depends on the Péclet number and on how much heat changes f: the slowest points may have too little of it."""
+    scene = lubfric.load_scene("paper")
+    heats = [Heat(peclet=peclet, change=change) for peclet, change in ((2.0, 0.002), (3.0, 0.04), (6.0, 0.04))]
+    none, (slow,), fast = (tuple(violations_by_heat(scene, heat)) for heat in heats)
+    assert none == fast == ()
+    assert "f too low by at most 4 %; points where that is below numerics.tolerance (1 %) have no such" in slow.text
 
 
 def test_a_sentence_begins_with_the_symbol_of_friction_as_it_is():

@@ -397,7 +397,8 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             limit=FAST_PECLET_NUMBER,
             unit="",
             consequence="the heat source moves slowly: the flash temperature "
-            f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
+            f"used is too high, and f too low by at most {100 * heat.change:.2g} %; points where that is below numerics.tolerance "
+            f"({100 * tolerance:g} %) have no such warning, however slow they are",
             recommendation="numerics.heat = 'off' gives the other bound",
         )
 

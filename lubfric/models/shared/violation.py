@@ -253,8 +253,8 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
 
 def _numbers_in_words(numbers: list[int], count: int) -> str:
     """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"."""
-    if len(numbers) == count:
-        return f"At all {count} points" if count > 1 else "At the point"
+    if count == 1:
+        return "At the point"
     if len(numbers) == 1:
         return f"At point {numbers[0]}"
     runs: list[list[int]] = []
