@@ -1,6 +1,8 @@
 """Heat of an operating point: against the isothermal point, the standalone solve, and a film solved
 hotter."""
 
+import re
+
 import numpy as np
 import pytest
 from scene_text import paper_scene
@@ -92,3 +94,17 @@ def test_the_temperatures_do_not_depend_on_which_surface_is_the_faster_one(model
     ahead, behind = (at(model, 1.0, ratio=ratio) for ratio in (0.4, -0.4))
     for name in ("film_temperature_rise", "flash_temperature_rise", "inlet_film_factor"):
         assert getattr(ahead, name) == pytest.approx(getattr(behind, name), rel=1e-9) and getattr(ahead, name) > 0
+
+
+def test_the_model_form_error_by_heat_is_stated_by_its_parts(model):
+    """At small slip the thinner film by the heat of the inlet may count for more than the temperatures in the contact. The first
+    part is half of the change that the decision states, and both add up to the model-form error of a thick film."""
+    hot = at(model, 5.0, 0.05, numerics={"model": "paper"})
+    note = next(note for note in hot.uncertainty.notes if note.startswith("the model-form error by heat is "))
+    total, within, inlet = (float(number) for number in re.findall(r"([\d.]+) %", note)[:3])
+    change = float(re.search(r"changes f by -([\d.]+) %", hot.decision.heat_in_words)[1])
+    assert within == pytest.approx(change / 2, rel=0.06) and inlet > within
+    assert inlet == pytest.approx(50 * (1 - hot.inlet_film_factor), rel=0.06)
+    assert total == pytest.approx(within + inlet, rel=0.06)
+    assert total == pytest.approx(100 * hot.uncertainty.largest_in_model.error, rel=0.02)
+    assert "half of the change of f" in note and "at most: as if f were inversely proportional" in note

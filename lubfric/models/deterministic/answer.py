@@ -25,6 +25,7 @@ from ..shared import (
     error_by_heat,
     film_lubricant,
     half_width_of_error,
+    heat_error_in_words,
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
@@ -140,6 +141,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_input_not_given = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
     by_flow = abs(levels.by_flow)
     by_heat = error_by_heat(heat, levels.by_inlet)
+    of_heat = heat_error_in_words(heat, levels.by_inlet, scene.numerics.tolerance, is_at_most=False)
     by_gap = ERROR_BY_GAP if _share_given_off(results) > MOST_GIVEN_OFF else 0.0
     by_limit = _by_limit(scene, results)
     parts_of_model = (
@@ -166,7 +168,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         length=levels.length,
         notes=(
             *_sample_notes(prepared, sampling_error, levels),
-            *filter(None, [limit_in_words(by_limit)]),
+            *filter(None, [limit_in_words(by_limit), of_heat]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
             *([TOO_MANY_CELLS] if levels.has_too_many_cells else []),
         ),

@@ -18,6 +18,7 @@ from ..shared import (
     added_sides,
     error_by_heat,
     has_too_few_contacts,
+    heat_error_in_words,
     percent,
     sides_of_parts,
     why_sample_too_short,
@@ -130,7 +131,9 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     if not math.isfinite(of_sample):
         of_sample = math.nan
     by_equation, unknown = model_error_of_eq8(balanced)
-    by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
+    by_inlet = 1 - forces.heat.film_factor**film_sensitivity
+    by_heat = error_by_heat(forces.heat, by_inlet)
+    of_heat = heat_error_in_words(forces.heat, by_inlet, scene.numerics.tolerance, is_at_most=True)
     parts = _parts_of_model(by_equation, by_heat)
     model_error = sides_of_parts(parts)
     of_f = numerical if math.isnan(of_sample) else math.hypot(numerical, of_sample)
@@ -142,7 +145,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         errors=errors | {"coefficient": of_f},
         why_no_error=why,
         reasons=reasons,
-        notes=(*notes, *unknown),
+        notes=(*notes, *unknown, *filter(None, [of_heat])),
         area_needed=_area_needed(balanced),
     )
 

@@ -46,6 +46,7 @@ from .heat import (
     PressurisedFilm,
     error_by_heat,
     film_lubricant,
+    heat_error_in_words,
     inlet_at,
     peclet_at,
     point_heat,

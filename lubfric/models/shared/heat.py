@@ -26,6 +26,7 @@ from ...film import (
 )
 from ...oil import NO_LIQUID, Lubricant, shear_stress
 from ...scene import Scene, budget
+from .wording import percent
 
 if TYPE_CHECKING:
     from ...contact import ContactState
@@ -358,7 +359,27 @@ def peclet_at(scene: Scene, speed: float) -> float:
 def error_by_heat(heat: Heat, by_inlet: float) -> float:
     """Return the relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the
     heat of the inlet, of which it is as much more as the other of two published factors has it."""
+    return sum(_parts_of_error(heat, by_inlet))
+
+
+def heat_error_in_words(heat: Heat, by_inlet: float, tolerance: float, *, is_at_most: bool) -> str:
+    """Return of what two parts the `error_by_heat` is made, as text; "" where it is within the ``tolerance`` on f, or where one of
+    the parts is 0. ``is_at_most``: ``by_inlet`` is not solved, but the largest there is."""
+    within, inlet = _parts_of_error(heat, by_inlet)
+    if within + inlet <= tolerance or not (within and inlet):
+        return ""
+    half = "half of" if inlet <= PART_IN_ERROR * abs(by_inlet) else "as much as two published factors differ, of"
+    film = f"the change of f by a film that the heat of the inlet makes {percent(1 - heat.film_factor)} thinner"
+    largest = " (at most: as if f were inversely proportional to it)" if is_at_most else ""
+    return (
+        f"the model-form error by heat is {percent(within + inlet)}: {percent(within)}, half of the change of f by the temperatures "
+        f"in the contact, and {percent(inlet)}, {half} {film}{largest}"
+    )
+
+
+def _parts_of_error(heat: Heat, by_inlet: float) -> tuple[float, float]:
+    """Return both parts of `error_by_heat`: by the temperatures of film and surfaces, and by the inlet."""
     apart = PART_IN_ERROR
     if heat.film_factor < 1 and heat.inlet is not None:
         apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))
-    return PART_IN_ERROR * abs(heat.change) + apart * abs(by_inlet)
+    return PART_IN_ERROR * abs(heat.change), apart * abs(by_inlet)
