@@ -59,6 +59,10 @@ class InputError(LubfricError, ValueError):
         return f"{self.quantity}{self.said}{allowed}{self.recommendation and '; ' + self.recommendation}"
 
 
+class TooManyCellsError(InputError):
+    """A film between rough surfaces needs more cells than are solved; raised before it is solved."""
+
+
 class OutputError(LubfricError, OSError):
     """A file could not be written or read: a full disk, a missing right, a folder that went away.
 

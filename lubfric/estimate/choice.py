@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
-from ..errors import ConvergenceError, InputError, WorkLimitError
+from ..errors import ConvergenceError, InputError, TooManyCellsError, WorkLimitError
 from ..models import AUTO, Model, SampleSolution, models_cheaper_than, models_up_to
 from ..models.shared import Assumption, Prepared
 from .solve_to_tolerance import solve_to_tolerance
@@ -113,7 +113,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 
     - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
     - if it has a severe violation, so that f means nothing by any model (those `OF_ONE_MODEL` excepted);
-    - if the next model declines (`Model.why_declined`), or does not converge.
+    - if the next model declines (`Model.why_declined`), does not converge, or needs too many cells.
 
     A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of those
     that take one.
@@ -136,7 +136,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             continue
         try:
             choice = _beside(prepared, speed, model, (models[0], first), for_fields=for_fields)
-        except ConvergenceError as error:
+        except (ConvergenceError, TooManyCellsError) as error:
             return replace(choice, why=f"the {model.name} model was not solved ({error})", gave_up=True)
     return choice
 

@@ -29,6 +29,29 @@ def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
     assert unsolved.coefficient == pytest.approx(solved.coefficient, rel=0.1)
 
 
+def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch):
+    """The strips have 35 x 200 cells, a piece on shorter ones 69 x 192."""
+    solved = lubfric.friction(SCENE, SPEED)
+    monkeypatch.setattr(problem, "MOST_GRID_CELLS", 12_000)
+    limited = lubfric.friction(SCENE, SPEED)
+    assert limited.decision.model == solved.decision.model == "deterministic"
+    assert abs(limited.coefficient / solved.coefficient - 1) < limited.uncertainty.numerical
+    assert limited.uncertainty.numerical > 1.5 * solved.uncertainty.numerical
+    assert "shorter cells of a piece of the surface are more than" in limited.uncertainty.text
+    assert "the most that are solved" not in solved.uncertainty.text
+    (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
+    assert "a narrow patch" in violation.recommendation
+
+
+def test_strips_of_too_many_cells_leave_the_answer_to_load_sharing(monkeypatch):
+    named = SCENE.with_(numerics={"model": "deterministic"})
+    by_load_sharing = lubfric.friction(SCENE.with_(numerics={"model": "paper"}), SPEED)
+    monkeypatch.setattr(problem, "MOST_GRID_CELLS", 1000)
+    for scene in (SCENE, named):
+        assert lubfric.friction(scene, SPEED).coefficient == by_load_sharing.coefficient
+    assert "more than the 1e+03 that are solved at most" in lubfric.friction(named, SPEED).decision.text
+
+
 PATCH = SCENE.with_(
     contact={"shape": (96, 64), "spacing": 1e-6},
     numerics={"sampling": "patch", "model": "deterministic", "tolerance": 1e-3},
@@ -50,3 +73,37 @@ def test_a_patch_ends_at_the_shortest_cells_that_are_not_too_many(monkeypatch, s
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
     assert "a smaller patch (contact.shape)" in violation.recommendation
     assert "the most that are solved" not in solved.uncertainty.text
+
+
+def test_a_patch_keeps_its_shorter_cells_where_still_shorter_ones_do_not_converge(monkeypatch):
+    """f on its own cells lies within the numerical error that is stated from cells twice as long."""
+    solved = lubfric.friction(PATCH, SPEED)
+    solve = shorter_cells.solve_strip
+
+    def fails(*arguments, map_coarsening, **keywords):
+        if map_coarsening == (1, 1):
+            raise lubfric.ConvergenceError(
+                "no film", lubfric.errors.Report("a patch", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
+            )
+        return solve(*arguments, map_coarsening=map_coarsening, **keywords)
+
+    monkeypatch.setattr(shorter_cells, "solve_strip", fails)
+    unsolved = lubfric.friction(PATCH, SPEED)
+    assert unsolved.details["deterministic"].pressure.shape == (62, 32)
+    assert abs(unsolved.coefficient / solved.coefficient - 1) < unsolved.uncertainty.numerical
+    assert unsolved.uncertainty.numerical > solved.uncertainty.numerical
+    assert "shorter cells did not converge" in unsolved.uncertainty.text
+
+
+def test_an_axis_of_a_patch_with_many_cells_keeps_longer_ones():
+    """Its cells along y, which divide 4 x 61, are a fourth of those along x: f on native ones is within the stated error."""
+    patch = PATCH.with_(
+        surface={"correlation_length": (12e-6, 14e-6)},
+        contact={"shape": (96, 244), "spacing": (1e-6, 0.25e-6)},
+        numerics={"tolerance": 5e-3},
+    )
+    native = lubfric.friction(patch.with_(numerics={"grid": "given"}), SPEED)
+    result = lubfric.friction(patch, SPEED)
+    assert native.details["deterministic"].pressure.shape[1] == 244
+    assert result.details["deterministic"].pressure.shape[1] <= 122
+    assert abs(result.coefficient / native.coefficient - 1) < result.uncertainty.numerical < 0.03

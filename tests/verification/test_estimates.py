@@ -165,6 +165,30 @@ def test_the_quick_model_on_a_patch_has_an_estimate():
     assert 0 < of_scene(PATCH.with_(numerics={"model": "quick", "sampling": "patch"}), [0.03]) < math.inf
 
 
+def test_the_estimate_of_moving_roughness_counts_all_of_a_patch():
+    """All of a patch passes, however long: four times the length takes some four times the time."""
+    times = [
+        of_scene(
+            ROLLING.with_(contact={"shape": (columns, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"}), [0.03]
+        )
+        for columns in (384, 1536)
+    ]
+    assert 3.0 < times[1] / times[0] < 5.0
+
+
+@pytest.mark.slow
+def test_a_patch_on_all_lengths_of_its_cells_is_estimated_within_three():
+    """With numerics.grid = "given" its cells are shortened down to its own, whatever f changes by."""
+    patch = PAPER.with_(
+        contact={"shape": (192, 192), "spacing": 0.45e-6},
+        numerics={"sampling": "patch", "model": "deterministic", "grid": "given"},
+    )
+    for speed in (0.01, 0.1):
+        with limited_work(math.inf) as meter:
+            lubfric.friction(patch, speed)
+        assert meter.spent / 3 <= of_scene(patch, [speed]) <= 3 * meter.spent
+
+
 @pytest.mark.slow
 def test_an_exponential_surface_under_a_wide_contact_is_estimated_within_three():
     """Bodies that flatten by 13 Sq: the dry contacts take some twice as many iterations, on ever shorter cells."""

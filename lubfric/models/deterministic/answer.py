@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...quantities import depending_on
+from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
 from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
@@ -70,9 +71,10 @@ UNSOLVED_CELLS = (
     "cells; a larger numerics.max_work reduces it"
 )
 SMALLER_PATCH = "a smaller patch (contact.shape)"
+PATCH_IN_PLACE = "a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
-    f"shorter cells of this patch are more than {MOST_GRID_CELLS:.3g}, the most that are solved: the numerical error is twice the "
-    f"estimate from longer cells; {SMALLER_PATCH} reduces it"
+    "shorter cells of {} are more than {:.3g}, the most that are solved: the numerical error is twice the estimate from longer "
+    "cells; {} reduces it"
 )
 ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; between these it scatters"
 MIRRORED = ", mirrored along the line"
@@ -170,7 +172,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *_sample_notes(prepared, sampling_error, levels),
             *filter(None, [limit_in_words(by_limit), of_heat]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
-            *([TOO_MANY_CELLS] if levels.has_too_many_cells else []),
+            *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
@@ -339,7 +341,7 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
     if has_moving_roughness(scene):
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])}, or {LARGER_TOLERANCE}"
     if levels.has_too_many_cells:
-        return f"{LARGER_TOLERANCE}, or {SMALLER_PATCH}"
+        return f"{LARGER_TOLERANCE}, or {_fewer_cells(sample)}"
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given_or_measured:
@@ -373,7 +375,18 @@ def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no tolerance does."""
     if has_moving_roughness(prepared.scene):
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} reduces it"
-    return f"{SMALLER_PATCH if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE} reduces it"
+    narrower = _fewer_cells(prepared.sample) if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE
+    return f"{narrower} reduces it"
+
+
+def _fewer_cells(sample: Sample) -> str:
+    """Return what gives ``sample`` fewer cells, as text."""
+    return SMALLER_PATCH if sample.refines_in_place else PATCH_IN_PLACE
+
+
+def _too_many_cells_in_words(sample: Sample) -> str:
+    """Return that shorter cells of ``sample`` are too many to be solved, and what to change."""
+    return TOO_MANY_CELLS.format(sample.piece_in_words(), MOST_GRID_CELLS, _fewer_cells(sample))
 
 
 def _why_no_sampling_error(prepared: Prepared, levels: Levels) -> str:
@@ -416,8 +429,8 @@ def _words_of_levels(levels: Levels) -> str:
     pieces = levels.pieces
     strips = f"{count} strip{'s' if count > 1 else ''} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
     if pieces:
-        cell_of_strips = pieces[0].on_cells_of_strips.result.spacing[0]
-        times = round(cell_of_strips / pieces[0].on_shortest_cells.result.spacing[0])
+        of_strips = pieces[0].on_cells_of_strips.result.spacing
+        times = round(max(long / short for long, short in zip(of_strips, pieces[0].on_shortest_cells.result.spacing)))
         strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
     if levels.shortest:
         strips += f", of cells {2 * times} times as short on a shorter one"

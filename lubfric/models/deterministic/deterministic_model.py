@@ -21,7 +21,7 @@ from ..shared import (
 from ..work_estimate import WorkEstimate
 from .answer import answer_of
 from .counted_work import MOST_WORK_OF_POINT
-from .estimated_work import estimated_work, why_too_costly
+from .estimated_work import estimated_work, why_too_costly, why_too_many_cells
 from .heat_of_strip import too_hot_in_words, why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
@@ -146,7 +146,7 @@ class DeterministicModel(Model):
         )
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return why_no_rough_film(prepared, speed)
+        return why_no_rough_film(prepared, speed) or why_too_many_cells(prepared, speed)
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         scene = prepared.scene

@@ -5,6 +5,7 @@ Constants that name no other source are measured on the points of ``python -m ve
 """
 
 import math
+from dataclasses import replace
 
 from ...samples import PIECE_LENGTH, Sample
 from ...scene import (
@@ -22,13 +23,13 @@ from ..work_estimate import WorkEstimate
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness
-from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps
+from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
-from .problem import are_soft, reach
+from .problem import are_soft, reach, why_too_many
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
-from .strip_on_two_grids import coarsening_at_rest, patch_coarsening_to_look_at, sample_coarsening_of
+from .strip_on_two_grids import coarsening_at_rest, patch_coarsening_to_look_at, sample_coarsening_of, shortened
 
 # Newton steps on cells half as long, which begin at the solution on longer ones [-].
 FINER_STEPS = 6
@@ -41,6 +42,21 @@ FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 # Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
 # the points.
 LAST_STEPS = 10
+
+# Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz half-width,
+# where it is largest; the exponents of the cell over these; the logarithm of the film of the smooth contact over Sq at which it is
+# largest, and its fall with the square of the distance from there; the standard deviation of its logarithm. Fitted to 107 changes
+# of 54 random patches of `python -m verification.campaigns.estimates`.
+CHANGE_OF_PATCH = 0.33
+CHANGE_BY_LENGTH = 0.67
+CHANGE_BY_HALF_WIDTH = 0.39
+LARGEST_CHANGE = -0.42
+CHANGE_BY_FILM = 0.53
+CHANGE_SPREAD = 1.4
+
+# Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two. A choice
+# between these.
+ERROR_OVER_CHANGE = 1.5
 
 # Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
@@ -80,6 +96,10 @@ LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
+
+# Processor time [s] of a patch at rest whose cells are so few that their work takes none: .04 to .08 in ten random patches of the
+# same.
+SECONDS_OF_PATCH = 0.05
 
 # Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the
 # same, most of all where the arrays are small.
@@ -154,6 +174,8 @@ def estimated_work(
     sq = surface.sq
     if speed == 0 or sq == 0 or not sample.is_resolved:
         return NO_WORK
+    if why_too_many(_cells_of_strip(scene, sample, sq=sq, speed=speed)):
+        return NO_WORK
     sample_coarsening = sample_coarsening_of(scene, sample)
     one_strip = (
         moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening)
@@ -184,7 +206,7 @@ def estimated_work(
         work = min(work, numerics.max_work)  # which ends it
     return WorkEstimate(
         strips=count,
-        seconds=AT_REST * work,
+        seconds=AT_REST * work + (SECONDS_OF_PATCH if sample.refines_in_place else 0.0),
         fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed, coarsening_at_rest(scene, sample)),
     )
 
@@ -241,11 +263,9 @@ def _work_at_rest(
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
     steps = expected_steps(scene, sq, speed)
-    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
-    if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
-        finer = 0.5 * cells * fx * fy * ux * uy
-        again = work_of_steps(finer, AGAIN) * _with_middle(ends)
-        return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again
+    cells = _cells_of_strip(scene, sample, sq=sq, speed=speed)
+    if sample.refines_in_place:
+        return _work_of_patch(scene, sample, sq=sq, speed=speed, ends=ends)
     lengths = sample.correlation_lengths[1] / sample.strip_length
     if lengths * LENGTH_OF_SHORT_STRIP > 1:
         return _work_of_short_strip(
@@ -270,6 +290,54 @@ def _work_at_rest(
     if scene.numerics.max_work is not None:
         pieces = min(pieces, PIECES_SHARE * max(scene.numerics.max_work - strips, 0.0))
     return strips + pieces + again
+
+
+def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, ends: int) -> float:
+    """Return the counted work [s] of a patch at rest on shorter and shorter cells (`shortened`), and of so many ``ends`` of input
+    ranges on the last ones: the geometric mean over where the estimated error may end that (`_expected_change_of_patch`)."""
+    numerics = scene.numerics
+    (dx, dy) = sample.cells.native_spacing
+    columns = sum(reach(scene.line_contact(abs(speed)), sq)) / dx
+    rows = sample.strip_length / dy
+
+    def solves_on(coarsening: tuple[float, float]) -> tuple[float, float]:
+        along = columns / coarsening[0]
+        cells = along * rows / coarsening[1]
+        steps = expected_steps_of_patch(scene, sq, speed, along)
+        return steps.work(cells, steps.first), steps.work(cells, steps.again)
+
+    coarsening = coarsening_at_rest(scene, sample)
+    (on_longer, _) = solves_on((2.0 * coarsening[0], 2.0 * coarsening[1]))
+    (first, again) = solves_on(coarsening)
+    work = on_longer + first + OF_SLOPE * again
+    log_work = 0.0
+    left = 1.0  # probability that the cells are shortened so far
+    while (shorter := shortened(scene, sample, coarsening)) != coarsening:
+        part = 1.0
+        if numerics.grid != "given":
+            change = _expected_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
+            part = 0.5 * math.erfc(
+                math.log(numerics.tolerance / (ERROR_OVER_CHANGE * change)) / (math.sqrt(2.0) * CHANGE_SPREAD)
+            )
+        log_work += left * (1.0 - part) * math.log(work + ends * again)
+        left *= part
+        if why_too_many(columns * rows / (shorter[0] * shorter[1])) or work > MOST_WORK_OF_POINT:
+            break
+        coarsening = shorter
+        (first, again) = solves_on(coarsening)
+        work += first
+    return math.exp(log_work + left * math.log(work + ends * again))
+
+
+def _expected_change_of_patch(
+    scene: Scene, sample: Sample, *, sq: float, speed: float, coarsening: tuple[int, int]
+) -> float:
+    """Return the change of f on cells of this length, in native ones, from cells twice as long that is expected of a patch at rest."""
+    cell = coarsening[0] * sample.cells.native_spacing[0]
+    log_ratio = math.log(scene.line_contact(abs(speed)).moes_film / sq)
+    by_film = math.exp(-((log_ratio - LARGEST_CHANGE) ** 2) * CHANGE_BY_FILM)
+    scale = (cell / sample.correlation_lengths[0]) ** CHANGE_BY_LENGTH
+    return CHANGE_OF_PATCH * by_film * scale * (cell / scene.bodies.half_width) ** CHANGE_BY_HALF_WIDTH
 
 
 def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int) -> float:
@@ -368,9 +436,8 @@ def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float, s
         (fx, fy) = patch_coarsening_to_look_at(scene, sample, solved)
         if (fx, fy) == solved:
             return 0.0
-        return AT_REST * work_of_steps(
-            around / (fx * dx) * sample.strip_length / (fy * dy), _finer_steps(scene, sq, speed)
-        )
+        on_patch = expected_steps_of_patch(scene, sq, speed, around / (fx * dx))
+        return AT_REST * on_patch.work(around / (fx * dx) * sample.strip_length / (fy * dy), on_patch.first)
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
     length = pictured_length(scene, sample) * sample.correlation_lengths[1]
     cells = around / (fx * dx) * length / (fy * dy)
@@ -432,6 +499,8 @@ def moving_point_work(
     cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
     solved_ends = _solved_ends(scene, surface, speed)
+    if not sample.represents_more:  # all of the map passes
+        course = replace(course, way=math.inf)
     return moving_work(
         line,
         sq,
@@ -457,6 +526,18 @@ def _solved_ends(scene: Scene, surface: Surface, speed: float) -> int:
         elif name != BOUNDARY_FRICTION_KEY:
             number += 2
     return number
+
+
+def _cells_of_strip(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return the number of cells of a strip whose roughness of ``sq`` [m] rests at ``speed`` [m/s]."""
+    (fx, fy) = sample_coarsening_of(scene, sample)
+    (dx, dy) = sample.cells.spacing
+    return sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
+
+
+def why_too_many_cells(prepared: Prepared, speed: float) -> str:
+    """Return why a strip at ``speed`` [m/s] has too many cells to be solved; "" if it has not."""
+    return why_too_many(_cells_of_strip(prepared.scene, prepared.sample, sq=prepared.surface.sq, speed=speed))
 
 
 def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:

@@ -147,7 +147,7 @@ class ExpectedCourse:
     """What the estimate of the work expects of a strip of moving roughness.
 
     - ``rest``: steps in time that the strip at rest is worth. ``way``: distance that the roughness travels in the moments that
-      count, in Hertz half-widths.
+      count, in Hertz half-widths; infinite: all of the map passes.
     - ``on_longer``: work of a step on cells twice as long along y over that on the shorter ones; 0: it is not followed there.
     """
 
@@ -643,7 +643,7 @@ def moving_work(
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
-    count = min(count, math.ceil(course.way * film_half_width(line) / (abs(fastest) * step)))
+    count = math.ceil(min(count, course.way * film_half_width(line) / (abs(fastest) * step)))
     compared = min(count, math.ceil(COMPARED_WAY * film_half_width(line) / (line.entrainment_speed * step)))
     steps = course.rest + discarded + count + continuations * once_more + course.on_longer * (discarded + compared)
     return steps * work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)

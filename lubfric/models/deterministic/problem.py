@@ -22,7 +22,7 @@ from functools import cached_property
 import numpy as np
 
 from ...contact import BOUNDARY, HalfSpace, half_space
-from ...errors import InputError
+from ...errors import InputError, TooManyCellsError
 from ...film import HasLineContact, LineContact, line_peak_pressure
 from ...oil import Lubricant
 from ...surface import Surface
@@ -185,8 +185,8 @@ def lay_out(
     ``map_coarsening`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). ``memo``: as of `Problem` (None: of its own). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for a
-    coarsening that does not divide the map.
+    lengths up and down stream (default: `reach`). ``memo``: as of `Problem` (None: of its own). Raises `TooManyCellsError`
+    for more cells than `MOST_GRID_CELLS`, and `InputError` for a coarsening that does not divide the map.
     """
     (nx, ny) = surface.shape
     (fx, fy) = map_coarsening
@@ -196,12 +196,8 @@ def lay_out(
         raise InputError(
             f"map_coarsening = {map_coarsening} does not divide the {ny} cells of the map along y; allowed: its divisors"
         )
+    check_number_of_cells(surface, line, map_coarsening, ends=ends)
     index = _columns_taken(surface, line, fx, ends)
-    if index.size * (ny // fy) > MOST_GRID_CELLS:
-        raise InputError(
-            f"contact: a deterministic film needs {index.size} x {ny // fy} cells of {dx:.3g} x {dy:.3g} m here; "
-            f"allowed: up to {MOST_GRID_CELLS:.3g} cells (larger contact.spacing, or a narrower patch)"
-        )
     period = nx if surface.periodic_axes[0] else 2 * nx
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
@@ -251,6 +247,28 @@ def has_too_many_cells(surface: Surface, line: LineContact, map_coarsening: tupl
     """Return whether `lay_out` refuses ``surface`` on these cells, because there are more of them than `MOST_GRID_CELLS`."""
     (fx, fy) = map_coarsening
     return _columns_taken(surface, line, fx).size * (surface.shape[1] // fy) > MOST_GRID_CELLS
+
+
+def why_too_many(cells: float) -> str:
+    """Return why a strip of about so many ``cells`` is not solved, as text; "" if it is."""
+    if cells <= MOST_GRID_CELLS:
+        return ""
+    return f"a strip needs {cells:.2g} cells, more than the {MOST_GRID_CELLS:.3g} that are solved at most"
+
+
+def check_number_of_cells(
+    surface: Surface, line: LineContact, map_coarsening: tuple[int, int], ends: tuple[float, float] | None = None
+) -> None:
+    """Raise `TooManyCellsError` if ``surface`` has more cells than `MOST_GRID_CELLS` on these; arguments as of `lay_out`."""
+    (fx, fy) = map_coarsening
+    (dx, dy) = surface.spacing
+    columns = _columns_taken(surface, line, fx, ends).size
+    rows = surface.shape[1] // fy
+    if columns * rows > MOST_GRID_CELLS:
+        raise TooManyCellsError(
+            f"contact: a deterministic film needs {columns} x {rows} cells of {dx * fx:.3g} x {dy * fy:.3g} m here; "
+            f"allowed: up to {MOST_GRID_CELLS:.3g} cells (larger contact.spacing, or a narrower patch)"
+        )
 
 
 def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:

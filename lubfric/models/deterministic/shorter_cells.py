@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from ..._base import limited_work, may_stay_unsolved, work_left
-from ...errors import ConvergenceError, LubfricError, WorkLimitError
+from ...errors import ConvergenceError, LubfricError, TooManyCellsError, WorkLimitError
 from ...quantities import names_with
 from ...samples import PIECE_LENGTH, Sample
 from ...scene import has_moving_roughness
@@ -29,14 +29,22 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips
 from .counted_work import MOST_WORK_OF_POINT
-from .problem import are_soft, has_too_many_cells
+from .problem import are_soft, check_number_of_cells, has_too_many_cells
 from .rough_bodies import map_of_contact
-from .strip import UNKNOWN_SLOPE, StripSolution, changes_of, error_by_cells, solve_strip
+from .strip import (
+    UNKNOWN_SLOPE,
+    StripSolution,
+    changes_of,
+    error_by_cells,
+    line_contact_of,
+    solve_strip,
+)
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     longer_than,
     numbers_of_strip,
     sample_coarsening_of,
+    shortened,
     surface_and_map_coarsening,
 )
 
@@ -132,7 +140,7 @@ class ShorterCells:
     change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
-    has_too_many : whether shorter cells of a patch were needed, and are more than `MOST_GRID_CELLS`
+    has_too_many : whether shorter cells were needed, and are more than `MOST_GRID_CELLS`
     """
 
     pieces: tuple[Piece, ...] = ()
@@ -154,7 +162,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     rests; where it moves, the effect of shorter cells is the expected one (`CellsInMotion`).
 
     - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
-      heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED_FACTOR` times the estimate.
+      heights are not smooth over a cell. Where it is not solved, because it does not converge or has too many cells, the
+      error is `UNSOLVED_FACTOR` times the estimate.
     - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_OF_POINT`
       allows it. What it estimates from one short piece may be off by half.
     - A single patch has one piece: all of it, on shorter and shorter cells (`_patch_on_shorter_cells`).
@@ -178,6 +187,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             pieces, scatter = _third_level(prepared, speed, pairs)
     except ConvergenceError:
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
+    except TooManyCellsError:
+        return ShorterCells(error=UNSOLVED_FACTOR * error, has_too_many=True)
     change = abs(float(np.mean([piece.change for piece in pieces])))  # its error is reported
     coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
@@ -189,8 +200,15 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         with limited_work(PIECES_SHARE * work_left()):
             slope = pairs[0].resolved.slope
             shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
-    except ConvergenceError:
-        return ShorterCells(pieces=pieces, sampling_error=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
+    except (ConvergenceError, TooManyCellsError) as failure:
+        has_too_many = isinstance(failure, TooManyCellsError)
+        return ShorterCells(
+            pieces=pieces,
+            sampling_error=scatter,
+            error=UNSOLVED_FACTOR * error,
+            has_unsolved=not has_too_many,
+            has_too_many=has_too_many,
+        )
     coarse, fine = (strip.result for strip in shortest.last_two)
     further = abs(1 - coarse.coefficient / fine.coefficient)
     of_mean = math.sqrt(max(changes_of(shortest.last_two)[0] ** 2 - further**2, 0.0))  # scatter of it over places
@@ -204,30 +222,48 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
 def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids, error: float) -> ShorterCells:
     """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative ``error``.
 
-    Where shorter ones are needed, and do not converge or are too many, the error is `UNSOLVED_FACTOR` times the estimate.
+    Its cells are `shortened` until the estimated error is within ``numerics.tolerance``, with ``numerics.grid = "given"`` down to
+    the map's own. Where shorter ones are needed, and do not converge, are too many, or take more than `MOST_WORK_OF_POINT`
+    in a scene without ``numerics.max_work``, those before count, and the error is `UNSOLVED_FACTOR` times the estimate from them.
     """
-    try:
-        with limited_work(PIECES_SHARE * work_left()):
-            patch = _refined(prepared, speed, 0, first=pair, find_slope=True)
-    except ConvergenceError:
-        return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
-    shortest = patch.on_shortest_cells
-    (surface, _) = surface_and_map_coarsening(prepared, 0)
-    by_cells = error_by_cells(changes_of(patch))
-    error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(shortest))
-    has_too_many = by_cells > _enough(prepared) and shortest.problem.spacing != surface.spacing
-    if has_too_many:
+    scene = prepared.scene
+    enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
+    (surface, map_coarsening) = surface_and_map_coarsening(prepared, 0)
+    ladder = [pair.longer, pair.resolved]
+    is_limited = scene.numerics.max_work is None and scene.numerics.grid != "given"
+    most = MOST_WORK_OF_POINT - pair.resolved.work if is_limited else math.inf
+    by_cells = math.inf  # one shorter length of cells is solved in any case
+    has_unsolved = False
+    has_too_many = False
+    with limited_work(min(PIECES_SHARE * work_left(), most)):
+        while (
+            shorter_cells := shortened(scene, prepared.sample, map_coarsening)
+        ) != map_coarsening and by_cells > enough:
+            map_coarsening = shorter_cells
+            has_too_many = has_too_many_cells(surface, ladder[-1].problem.line, map_coarsening)
+            if has_too_many:
+                break
+            solve = partial(solve_strip, scene, surface, speed, map_coarsening=map_coarsening, memo=prepared.memo)
+            try:
+                shorter = solve(start=ladder[-1])
+            except ConvergenceError:
+                has_unsolved = True
+                break
+            ladder.append(shorter)
+            by_cells = error_by_cells(changes_of(ladder))
+            error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(shorter))
+    if has_unsolved or has_too_many:
         error *= UNSOLVED_FACTOR
-    if shortest is patch.on_cells_of_strips:
-        return ShorterCells(error=error, has_too_many=has_too_many)
-    return ShorterCells(pieces=(patch,), strip=shortest, error=error, has_too_many=has_too_many)
-
-
-def _enough(prepared: Prepared) -> float:
-    """Return the relative error of f by the cells up to which those of a piece are not shortened further: 0 but for a patch that
-    may end before its native cells."""
-    numerics = prepared.scene.numerics
-    return numerics.tolerance if prepared.sample.refines_in_place and numerics.grid != "given" else 0.0
+    if len(ladder) == 2:
+        return ShorterCells(error=error, has_unsolved=has_unsolved, has_too_many=has_too_many)
+    patch = Piece(replace(one, slope=pair.resolved.slope) for one in ladder)
+    return ShorterCells(
+        pieces=(patch,),
+        strip=patch.on_shortest_cells,
+        error=error,
+        has_unsolved=has_unsolved,
+        has_too_many=has_too_many,
+    )
 
 
 def error_of_soft_bodies(strip: StripSolution) -> float:
@@ -365,37 +401,35 @@ def _refined(
     """Return piece ``index`` of the surface, solved on cells twice as long as those of the strips, on cells as long,
     and then on cells half as long each time, down to so many ``times`` as short as those of the strips.
 
-    A piece of a patch is all of it: its cells are shortened until the estimated error is within ``numerics.tolerance``,
-    with ``numerics.grid = "given"`` down to the map's own, or until there would be too many.
-
     Parameters
     ----------
     first : the strip that serves as the piece, solved on the first two lengths of cells; None: a piece is made
     slope : of friction over load [-], as another piece has it
     find_slope : whether it is found in its place: on the ``first`` strip, or by a second solve
     length : of a piece that is made, in correlation lengths
+
+    Raises `ConvergenceError`, and `TooManyCellsError` before anything is solved.
     """
     scene = prepared.scene
     sample = prepared.sample
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
-    enough = _enough(prepared)
     if first is not None:
+        check_number_of_cells(surface, first.resolved.problem.line, (1, 1))
         ladder = [first.longer, first.resolved]
     else:
         coarsening = tuple(m * n for m, n in zip(map_coarsening, sample.cells.coarsening))
         last = max(1, coarsening[0] // times), max(1, coarsening[1] // times)
         map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
         surface = map_of_contact(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
+        check_number_of_cells(surface, line_contact_of(scene, speed), (1, 1))
         longer: StripSolution | None = None
         solve = partial(solve_strip, scene, surface, speed, memo=prepared.memo)
         with may_stay_unsolved():  # it is a start only, and cells so long may have no solution
             longer = solve(map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START)
         strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
         ladder = [strip if longer is None else longer, strip]
-    while map_coarsening != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
+    while map_coarsening != (1, 1):
         map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
-        if sample.refines_in_place and has_too_many_cells(surface, ladder[-1].problem.line, map_coarsening):
-            break
         ladder.append(
             solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
         )

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..._base import may_stay_unsolved
+from ...film import LineContact
 from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
@@ -231,7 +232,7 @@ def problem_of(
     heated inlet. ``memo``: as of `Problem`."""
     film = scene.bodies.boundary_film
     ratio = scene.motion.slide_roll_ratio
-    lubricant = film_lubricant(scene, speed)
+    line = line_contact_of(scene, speed)
     if [name for name, _ in moving_bodies(scene)] == ["counterface"]:
         upper = surface
 
@@ -240,7 +241,7 @@ def problem_of(
 
     problem = lay_out(
         turned(surface),
-        replace(scene.line_contact(abs(speed)), lubricant=lubricant),
+        line,
         sliding=abs(ratio * speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
@@ -254,8 +255,13 @@ def problem_of(
         problem,
         sense=-1.0 if ratio < 0 else 1.0,
         upper=problem.heights if upper is surface else heights,
-        sheared=None if lubricant is scene.lubricant else scene.lubricant,
+        sheared=None if line.lubricant is scene.lubricant else scene.lubricant,
     )
+
+
+def line_contact_of(scene: Scene, speed: float) -> LineContact:
+    """Return the line contact of ``scene`` at ``speed`` [m/s], whose lubricant flows with the viscosity of its heated inlet."""
+    return replace(scene.line_contact(abs(speed)), lubricant=film_lubricant(scene, speed))
 
 
 def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:

@@ -24,6 +24,11 @@ PER_LENGTH = 2.0
 # Cells in the Hertz half-width along x, at least. A choice: fewer show no contact. Half and twice change f by up to 1.8
 # %, its interval by up to 28 % and the work by up to 270 % (constants.csv).
 PER_HALF_WIDTH = 1.0
+# Cells along one axis over those along the other [-], each in what they have to resolve, up to which a patch is solved on
+# shorter ones along it: beyond, the error of f, of second order, comes from the other axis. A choice: more solves needless
+# cells, less leaves an error that no change of f shows.
+MUCH_SHORTER = 0.25
+
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: less
 # takes longer, more leaves less to other errors.
 MOVING_SAMPLE = 0.6
@@ -110,6 +115,20 @@ def coarsening_at_rest(scene: Scene, sample: Sample) -> tuple[int, int]:
     (sx, sy) = sample_coarsening_of(scene, sample)
     (rx, ry) = sample.refinement
     return sx * rx, sy * ry
+
+
+def shortened(scene: Scene, sample: Sample, coarsening: tuple[int, int]) -> tuple[int, int]:
+    """Return half the ``coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the same along an
+    axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests native cells."""
+    (fx, fy) = coarsening
+    halves = max(1, fx // 2), max(1, fy // 2)
+    if scene.numerics.grid == "given":
+        return halves
+    (lx, ly) = sample.correlation_lengths
+    (dx, dy) = sample.cells.native_spacing
+    along = fx * dx / min(lx / PER_LENGTH, scene.bodies.half_width / PER_HALF_WIDTH)
+    across = fy * dy / (ly / PER_LENGTH)
+    return fx if along <= MUCH_SHORTER * across else halves[0], fy if across <= MUCH_SHORTER * along else halves[1]
 
 
 def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, is_moving: bool = False) -> tuple[int, int]:

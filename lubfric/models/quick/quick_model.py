@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ...errors import ConvergenceError
+from ...errors import ConvergenceError, TooManyCellsError
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness, moving_bodies, why_gap_not_resolved
 from ...surface import Surface
@@ -147,7 +147,7 @@ class QuickSolution(SampleSolution):
             return THICK_FILM_NOTE
         try:
             with_strips = replace(self, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
-        except ConvergenceError as error:
+        except (ConvergenceError, TooManyCellsError) as error:
             return STRIPS_NOT_SOLVED.format(error)
         error_of_strips = max(with_strips.answer().model_error)
         if is_thick and self._is_separated_within(error_of_strips):
