@@ -40,6 +40,16 @@ KINDS = (
     "wear",
     "command",
 )
+# The kinds of runs on one patch of few correlation lengths, which begin with number `FIRST_PATCH`.
+PATCH_KINDS = (
+    "patch rest deterministic",
+    "patch rest quick",
+    "patch rest paper",
+    "patch rolling quick",
+    "patch rolling deterministic",
+    "patch traction",
+)
+FIRST_PATCH = 10_000
 ROLLING = ("rolling auto", "rolling quick", "rolling deterministic", "traction")
 # Model of a kind whose name does not say it. A fit by the quick model takes one to three minutes.
 MODELS = {"curve": "paper", "study": "quick", "fit": "paper", "time": "paper", "run-in": "paper"}
@@ -61,6 +71,11 @@ DRAWS = 100  # draws, at most, until an estimate is short enough
 CELLS_IN_LENGTH = 5.0  # cells in a correlation length of a patch that runs in
 LENGTHS_IN_PATCH = 10.0  # correlation lengths in its side
 STRIPS_IN_PATCH = 4.0  # Hertz half-widths in its side
+# Ends of the cells in the shortest correlation length of a patch at a point, and of the correlation lengths in its sides.
+CELLS_OF_POINT = (4.0, 24.0)
+LENGTHS_OF_POINT = (4.0, 14.0)
+# Cells along each side of such a patch come in multiples of one of these numbers.
+MULTIPLES = (4, 8, 16)
 # Length of ridges over their width [-].
 RIDGE = 5.0
 # Speeds between which that film is searched [m/s].
@@ -80,10 +95,16 @@ class RandomRun:
     run: Callable[[], object]
 
 
+def kind_of(seed: int) -> str:
+    """Return the kind of run number ``seed``: one on a patch from `FIRST_PATCH` on."""
+    kinds = PATCH_KINDS if seed >= FIRST_PATCH else KINDS
+    return kinds[seed % len(kinds)]
+
+
 def drawn(seed: int, draw: int | None = None) -> RandomRun:
-    """Return the random run number ``seed``. Its kind follows from the number. A run that is estimated to take more than
+    """Return the random run number ``seed``. Its kind (`kind_of`) follows from the number. A run that is estimated to take more than
     `LONGEST`, or that is refused, is drawn again; ``draw``: the number of the draw, where it is known."""
-    kind = KINDS[seed % len(KINDS)]
+    kind = kind_of(seed)
     if draw is not None:
         return _drawn(seed, draw, kind)
     for draw in range(DRAWS):
@@ -96,7 +117,11 @@ def drawn(seed: int, draw: int | None = None) -> RandomRun:
 
 def _drawn(seed: int, draw: int, kind: str) -> RandomRun:
     rng = np.random.default_rng([48, seed, draw])
-    scene = _scene(rng, kind)
+    is_on_patch = kind in PATCH_KINDS
+    kind_of_run = kind.removeprefix("patch ")
+    scene = _scene(rng, kind_of_run)
+    if is_on_patch:
+        scene = scene.with_(contact=_patch_of_point(rng, scene), numerics={"sampling": "patch"})
     speed = scene.motion.entrainment_speed
     model = kind.rpartition(" ")[2]
     model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "quick")
@@ -106,7 +131,7 @@ def _drawn(seed: int, draw: int, kind: str) -> RandomRun:
     if kind == "curve":
         estimate = partial(_of_scene, scene, speeds="auto")
         run = partial(lubfric.stribeck, scene, "auto")
-    elif kind == "traction":
+    elif kind_of_run == "traction":
         ratios = np.geomspace(0.005, 1.0, int(rng.integers(3, 9))).tolist()
         estimate = partial(_of_scene, scene, ratios=ratios)
         run = partial(lubfric.traction, scene, ratios, speed=speed)
@@ -182,6 +207,19 @@ def _patch(scene: lubfric.Scene) -> dict[str, object]:
     spacing = min(lengths) / CELLS_IN_LENGTH
     sides = max(LENGTHS_IN_PATCH * lengths[0], STRIPS_IN_PATCH * scene.bodies.half_width), LENGTHS_IN_PATCH * lengths[1]
     return {"shape": tuple(4 * math.ceil(side / spacing / 4) for side in sides), "spacing": spacing}
+
+
+def _patch_of_point(rng: np.random.Generator, scene: lubfric.Scene) -> dict[str, object]:
+    """Return the keys of a patch of few correlation lengths, which is at least as long as `_patch` needs along x."""
+    given = scene.surface.correlation_length or 0.0
+    lengths = given if isinstance(given, tuple) else (given, given)
+    (per_length, number) = (
+        math.exp(rng.uniform(math.log(least), math.log(most))) for least, most in (CELLS_OF_POINT, LENGTHS_OF_POINT)
+    )
+    multiple = int(rng.choice(MULTIPLES))
+    spacing = min(lengths) / per_length
+    sides = max(number * lengths[0], STRIPS_IN_PATCH * scene.bodies.half_width), number * lengths[1]
+    return {"shape": tuple(multiple * math.ceil(side / spacing / multiple) for side in sides), "spacing": spacing}
 
 
 def _in_time(rng: np.random.Generator, scene: lubfric.Scene, speed: float, model: str) -> lubfric.Scene:

@@ -25,7 +25,7 @@ from ...pace import paced
 from ...types import PlainRow
 from .. import table_file
 from ..extending import solved_in_processes
-from .jobs import KINDS, MOST_WORK, drawn, seconds
+from .jobs import KINDS, MOST_WORK, drawn, kind_of, seconds
 
 TABLE = Path(__file__).parent / "table.csv"
 # Digits of a number in the table.
@@ -35,6 +35,7 @@ DIGITS = 4
 FACTOR = 3.0
 # Kinds, by their first word, that a page shows together.
 GROUPS = {
+    "patch": "patches",
     "rest": "points",
     "rolling": "points",
     "curve": "curves",
@@ -106,7 +107,7 @@ def extend(
     (``workers``), and append each as it ends; those that take longer than ``seconds`` of elapsed time in all are left
     out."""
     known = {int(row["seed"]) for row in rows(file)}
-    left = [RowOfRun(n) for n in range(first, count) if n not in known and KINDS[n % len(KINDS)] in kinds]
+    left = [RowOfRun(n) for n in range(first, count) if n not in known and kind_of(n) in kinds]
     for row in solved_in_processes(left, seconds, workers):
         table_file.append(file, COLUMNS, row, DIGITS)
         yield row
