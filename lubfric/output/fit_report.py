@@ -139,7 +139,7 @@ def _with_interval(result: FitResult, key: str) -> str:
     (low, high) = result.intervals[key]
     unit = KEYS[key].unit if key in KEYS else "-"
     if key in result.undetermined:
-        return f"is not determined ({worded_value(key, low)} to {worded_value(key, high)} fit)"
+        return f"is not determined (every value from {worded_value(key, low)} to {worded_value(key, high)} fits)"
     if not result.describes_data or not low < value < high or key == OIL_TEMPERATURE:
         return f"= {worded_value(key, value)}"
     return f"= {with_interval(value, low, high, unit=unit)}"
@@ -167,7 +167,7 @@ def _parameters_table(result: FitResult) -> str:
         change = result.effects[key]
         move = moved[key]
         cells = [
-            worded_value(key, result.values[key]),
+            worded_value(key, result.values[key]) + (" (one of them)" if key in result.undetermined else ""),
             interval if result.describes_data else "not valid",
             f"{worded_value(key, float(bounds.low))} to {worded_value(key, float(bounds.high))}",
             _determined(result, key),

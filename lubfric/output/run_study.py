@@ -209,7 +209,7 @@ def run_fit(arguments: Namespace) -> None:
             passed = f"{begun.seconds:.0f} s, {to_come}"
             state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
             if math.isnan(misfit):
-                state = f"search by the load-sharing model, curve {done} of about {total}: the fit begins near {place}, if no lower curve follows"
+                state = f"search by the load-sharing model, curve {done} of about {total}: lowest at {place}"
             say(f"{state}; {passed}")
 
     with keeping(lambda: f"the points solved so far are kept in {arguments.out}"), progress_to(moment_reports()):

@@ -120,7 +120,8 @@ class FitCurves:
             outcomes = {}
             for key, u, outcome in spread(self._executor, jobs):
                 outcomes[key, u] = outcome
-                report_progress("points of this curve", len(outcomes), len(jobs))
+                if len(outcomes) < len(jobs):
+                    report_progress("points of this curve", len(outcomes), len(jobs))
             points = tuple(outcomes[key, u] for _, key, u in places)
             for failure in (outcome for outcome in points if isinstance(outcome, LubfricError)):
                 raise failure

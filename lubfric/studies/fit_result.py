@@ -40,6 +40,9 @@ UNREPORTED_MOVE = 0.01
 # Correlation of two parameters, without sign, above which it is reported. A convention.
 CORRELATED = 0.9
 
+# Largest f of the picture over that of points and curve. A choice, so that no mark is cut.
+HEADROOM = 1.08
+
 # Other minima that are named in the text of a fit, at most. A choice, for a text that can be read.
 MOST_NAMED_MINIMA = 3
 
@@ -247,9 +250,9 @@ class FitResult(Renamed, Shown):
         for key in self.undetermined:
             change = self.effects[key]
             where = "over its bounds it changes f by"
-            reason = f"{where} {100 * change:.2g} %{'' if key in self.profiles else ', linearised'}"
-            if math.isnan(change):
-                reason = "f could not be solved at one of its bounds"
+            reason = "f could not be solved at one of its bounds"
+            if not math.isnan(change):
+                reason = f"{where} {percent(change)}{'' if key in self.profiles else ', linearised'}"
             lines.append(f"the data do not determine {key}: {reason}")
         lines += [f"{key}: {self._one_sided(key)}" for key in self.undetermined_sides if key not in self.undetermined]
         keys = [*self.parameters]
@@ -397,7 +400,8 @@ def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequ
             x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
         )
     measured.label(axes)
-    axes.set(ylim=(0.0, None), ylabel=figures.FRICTION_LABEL)
+    (lowest, highest) = axes.dataLim.intervaly
+    axes.set(ylim=(HEADROOM * min(lowest, 0.0), HEADROOM * highest), ylabel=figures.FRICTION_LABEL)
     figures.key_above(axes)
 
 

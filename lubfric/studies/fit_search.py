@@ -45,6 +45,10 @@ SAME_MINIMUM = 0.1
 # less takes curves that tell nothing new.
 KNOWN_DISTANCE = 0.01
 
+# Expected decrease of the sum of squares below that of a curve in the same minimum, as a share of it, from which a further curve
+# is solved there. A convention: less refines minima that the fit refines anyway, and follows valleys that the data do not close.
+LEAST_EXPECTED_DECREASE = 0.01
+
 # Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher
 # curve the residuals have to be there to part two minima. Conventions.
 BETWEEN = np.linspace(0.05, 0.95, 19)
@@ -119,11 +123,12 @@ def search_minima(
         add(unit)
         if linear_place is None or len(units) == before:
             return
-        for share in ALONG_LINEAR:
-            moved = unit.copy()
+        known = units[before]
+        lowest = curves.lowest_over_boundary_friction(known)[linear_place]
+        for share in {*ALONG_LINEAR, float(lowest)} - {float(known[linear_place])}:
+            moved = known.copy()
             moved[linear_place] = share
-            if abs(share - units[before][linear_place]) > KNOWN_DISTANCE:
-                add(moved)
+            add(moved)
 
     for unit in first:
         add_along(unit)
@@ -137,7 +142,7 @@ def search_minima(
         if new is None:
             break
         tried.append(new)
-        add(new)
+        add_along(new)
     misfits = [float(np.sqrt(np.mean(row**2))) for row in residuals]
     lowest, *others = distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
     parted = [
@@ -224,10 +229,12 @@ def _next_position(units: np.ndarray, residuals: np.ndarray, tried: np.ndarray) 
             max_nfev=40,
         )
         minima.append((end.cost, end.x))
-    least = float(np.min(np.sum(residuals**2, axis=1))) / 2
+    costs = np.sum(residuals**2, axis=1) / 2
     for cost, unit in sorted(minima, key=lambda pair: pair[0]):
-        if cost > COMPARABLE**2 * least:
+        if cost > COMPARABLE**2 * costs.min():
             return None
-        if np.abs(tried - unit).max(axis=1).min() > KNOWN_DISTANCE:
+        is_as_low = costs * (1.0 - LEAST_EXPECTED_DECREASE) <= cost
+        is_near = np.abs(units - unit).max(axis=1) < SAME_MINIMUM
+        if np.abs(tried - unit).max(axis=1).min() > KNOWN_DISTANCE and not np.any(is_as_low & is_near):
             return unit
     return None

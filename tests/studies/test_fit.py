@@ -1,6 +1,8 @@
 """Fits: made-up data come back within their regions, what data cannot tell is said, files are read by name and unit."""
 
+import html
 import json
+import shlex
 import time
 from concurrent.futures import ThreadPoolExecutor
 from importlib import import_module
@@ -415,8 +417,14 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     assert (tmp_path / "out" / "fit.pdf").is_file() and main(["plot", str(tmp_path / "out"), "--panels", "film"]) == 2
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
     assert "section.key=lowest:highest" in capsys.readouterr().err
+    page = (tmp_path / "out" / "report.html").read_text()
+    (low, high) = result.intervals["lubricant.viscosity"]
+    assert "Converged: the fit describes the data." in page and "data:image/png;base64" in page
+    assert f"{1e3 * low:.3g} to {1e3 * high:.3g} mPa s" in page and '"key">fitted</td>' in page
+    assert all(f"{f:.3g}</td>" in page for f in read.coefficient) and "by chance" not in page
     monkeypatch.setattr("lubfric.studies.points.outcome_of", None)  # all points are kept: nothing is solved again
-    assert main([*command, *sought]) == 0
+    again = html.unescape(page.partition("<code>")[2].partition("</code>")[0])
+    assert main([*shlex.split(again)[1:], "--out", str(tmp_path / "out")]) == 0
     assert json.loads((tmp_path / "out" / "fit.json").read_text())["values"] == record["values"]
 
 
@@ -534,23 +542,45 @@ def counting_points(monkeypatch):
     return solved
 
 
+def least_squares_of_a_line(measured):
+    """Return the f_b of f = f_b F_C/F_T + film with the least sum of squared relative deviations from ``measured``, and F_C/F_T."""
+    balanced = lubfric.stribeck(SCENE, SPEEDS)
+    share = balanced["contact_load"] / SCENE.bodies.load
+    film = balanced.coefficient - SCENE.bodies.boundary_friction_coefficient * share
+    relative = share / measured.coefficient
+    left = 1 - film / measured.coefficient
+    return float(relative @ left) / float(relative @ relative), share
+
+
 @pytest.mark.parametrize("bounds, start", [((0.05, 0.2), 0.06), ((0.01, 0.9), 0.5)])
 def test_the_boundary_friction_alone_takes_no_further_balance(monkeypatch, bounds, start):
     """f = f_b F_C/F_T + film at each point: the least squares of a line. One curve has the balances, one is the answer."""
     measured = made_up(1)
-    balanced = lubfric.stribeck(SCENE, SPEEDS)
-    part = balanced["contact_load"] / SCENE.bodies.load / measured.coefficient
-    film = (
-        balanced.coefficient - SCENE.bodies.boundary_friction_coefficient * part * measured.coefficient
-    ) / measured.coefficient
-    expected = float(part @ (1 - film)) / float(part @ part)
+    (expected, share) = least_squares_of_a_line(measured)
     solved = counting_points(monkeypatch)
     result = lubfric.fit(SCENE, measured, {FRICTION: bounds}, start={FRICTION: start})
     assert len(solved) == 2 * SPEEDS.size
     assert result.values[FRICTION] == pytest.approx(expected, rel=1e-3)
     np.testing.assert_array_equal(result.predicted, lubfric.stribeck(result.scene, SPEEDS, tolerance=0.01).coefficient)
-    share = part * measured.coefficient * result.parameters[FRICTION].slope(result.unit[0])
-    np.testing.assert_allclose(result.slopes[:, 0], share, rtol=0.02)
+    width = result.parameters[FRICTION].slope(result.unit[0])
+    np.testing.assert_allclose(result.slopes[:, 0], share * width, rtol=0.02)
+
+
+def test_the_search_takes_the_best_boundary_friction_of_each_curve():
+    """After one curve, which is at the start, the f_b of the lowest sum is that of a line."""
+    measured = made_up(1)
+    (expected, _) = least_squares_of_a_line(measured)
+
+    class Ended(Exception):
+        pass
+
+    def on_progress(done, total, left, misfit, values):
+        assert np.isnan(misfit) and values[FRICTION] == pytest.approx(expected, rel=0.01)
+        assert values["lubricant.viscosity"] == pytest.approx(SCENE.lubricant.viscosity)
+        raise Ended
+
+    with pytest.raises(Ended):
+        lubfric.fit(SCENE, measured, BOUNDS, start={FRICTION: 0.06}, on_progress=on_progress)
 
 
 @pytest.mark.parametrize(
