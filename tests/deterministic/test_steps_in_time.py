@@ -6,7 +6,17 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from lubfric.models.deterministic import ECONOMICAL, TIGHT, moments, moving_strip, solve_moving_strip, travelling
+from lubfric.models.deterministic import (
+    ECONOMICAL,
+    TIGHT,
+    evaluated,
+    moments,
+    moving,
+    moving_strip,
+    newton,
+    solve_moving_strip,
+    travelling,
+)
 from verification.campaigns.calibration.case import drawn
 
 
@@ -44,3 +54,45 @@ def test_steps_of_a_narrow_contact_begin_with_the_pressure_moved(monkeypatch):
     resting, same_friction = followed()
     assert moved < 0.8 * resting
     assert friction == pytest.approx(same_friction, rel=1e-3)
+
+
+def test_steps_begin_with_roughness_moved_by_a_part_of_a_cell(monkeypatch):
+    """Of 0.58 of a cell in a step: less than 0.6 of the work from complete cells, and the same friction."""
+    case = drawn("rolling", 2)
+
+    def followed():
+        effort = replace(ECONOMICAL, discarded=0.3)
+        strip = solve_moving_strip(case.scene, case.bodies, case.speed, most_steps=5, effort=effort)
+        return strip.work - strip.rest.work, strip.result.coefficient
+
+    by_parts, friction = followed()
+    cells = moving_strip.cells_in_a_step
+    monkeypatch.setattr(moving_strip, "cells_in_a_step", lambda *given: float(round(cells(*given))))
+    by_cells, same_friction = followed()
+    assert by_parts < 0.6 * by_cells
+    assert friction == pytest.approx(same_friction, rel=2e-3)
+
+
+def test_a_step_begins_with_the_load_and_the_mean_gap_of_the_moment_before(monkeypatch):
+    """Where roughness moves by a complete cell, that gap moves with it."""
+    case = drawn("rolling", 2)
+    effort = replace(ECONOMICAL, discarded=0.1)
+    rest = moving_strip.strip_at_rest(case.scene, case.bodies, case.speed, effort=effort)
+    begun = []
+
+    def noted(problem, state, *given, **how):
+        begun.append(evaluated(problem, state))
+        return newton(problem, state, *given, **how)
+
+    monkeypatch.setattr(moving, "newton", noted)
+    bodies = [body._replace(speed=case.speed) for body in case.bodies]
+    passing = moments(
+        travelling(rest.problem, bodies), rest.problem.spacing[0] / case.speed, start=rest.result.state, shift=1.0
+    )
+    before, after = (moment.at for moment in islice(passing, 2))
+    start = begun[0].state.pressure
+    assert start.sum() == pytest.approx(before.state.pressure.sum(), rel=1e-12)
+    assert not np.allclose(start, before.state.pressure) and not np.allclose(start, after.state.pressure)
+    is_pressed = start > 0.1 * start.max()
+    moved = np.concatenate([before.gap[:1], before.gap[:-1]])
+    assert begun[0].gap[is_pressed].mean() == pytest.approx(moved[is_pressed].mean(), rel=1e-9)

@@ -90,8 +90,8 @@ MOMENTS_GROWTH = (1.25, 2.5)
 # Moments over those that the error needs [-]. A convention.
 MOMENTS_SPARE = 1.1
 
-# Numbers of a strip that are kept at every moment.
-SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film")
+# Numbers of a strip that are kept at every moment; the counted work of its step is one.
+SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "work")
 
 # Inputs that change the shear stress of a film, but very little its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = tuple(f"lubricant.{law.key}" for law in (*FLOW_LAWS, *LIMIT_LAWS))
@@ -538,7 +538,7 @@ def _passing(
     )
 
 
-def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> int:
+def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> float:
     """Return the number of cells [m] by which the roughness of ``bodies`` moves downstream in a ``step`` [s]: with the mean
     of their speeds, each with the weight of its mean square height.
 
@@ -550,7 +550,7 @@ def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> in
     """
     weights = [body.surface.sq**2 for body in bodies]
     mean = sum(weight * body.speed for weight, body in zip(weights, bodies)) / max(sum(weights), SMALLEST_SQUARE)
-    return max(0, math.floor(mean * step / cell + 0.5))
+    return max(0.0, mean * step / cell)
 
 
 def _as_seen(bodies: Sequence[RoughBody], speed: float) -> Sequence[RoughBody]:
