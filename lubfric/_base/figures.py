@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from importlib.resources import as_file, files
 from pathlib import Path
+from textwrap import fill, wrap
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
+    from matplotlib.text import Text
 
 
 Plot = TypeVar("Plot", bound=Callable[..., Any])
@@ -32,8 +34,10 @@ FRICTION_LABEL = axis_label("coefficient")
 
 # Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
+KEY_ROOM = 0.92  # of the width of axes before the layout, which leaves less to them: of the key above them
+NARROW_KEY = {"handlelength": 2.4, "handletextpad": 0.5, "columnspacing": 1.0}  # letters: lengths in a narrow figure
 KEY_LINE = 3.0  # letters: length of the lines in a key, such that dashes and dots differ
-LETTER = 3.8  # pt: width of a letter of that size, about
+FIT_ROUNDS = 2  # times that labels are broken: breaking one changes the room of others
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
 GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be spaced by factors
 CORRELATION_ROUNDING = 1e-9  # of a correlation coefficient
@@ -72,11 +76,15 @@ def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
 
 
 def new_figure(*args: Any, layout: Any = "constrained", **kwargs: Any) -> Figure:
-    """Return a figure without a window."""
+    """Return a figure without a window, of the resolution in which it is saved: letters are of other widths in another one."""
+    from matplotlib import rcParams
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    resolution = rcParams["savefig.dpi"]
     figure = Figure(*args, layout=layout, **kwargs)
+    if resolution != "figure":
+        figure.set_dpi(resolution)
     FigureCanvasAgg(figure)
     return figure
 
@@ -104,8 +112,6 @@ def plain_words(text: str) -> str:
 
 def head(figure: Figure, title: str) -> None:
     """Write ``title`` above ``figure``, in lines that are no wider than it."""
-    from textwrap import fill
-
     from matplotlib import rcParams
     from matplotlib.font_manager import FontProperties
 
@@ -194,24 +200,81 @@ def speed_label(speed: np.ndarray) -> str:
 
 def key_above(axes: Axes, columns: int = 3) -> int:
     """Put the key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has
-    room for; returns the number of rows."""
+    room for; returns the number of its lines of text."""
     from matplotlib import rcParams
 
-    labels = axes.get_legend_handles_labels()[1]
+    handles, labels = axes.get_legend_handles_labels()
     size = min(rcParams["legend.fontsize"], KEY_SIZE) if not isinstance(rcParams["legend.fontsize"], str) else KEY_SIZE
     figure = axes.get_figure(root=True)
     assert figure is not None
-    if figure.get_figwidth() <= NARROW_FIGURE:
-        size = min(size, SMALL_KEY_SIZE)
-    room = 72 * axes.get_position().width * figure.get_figwidth() / (LETTER * size / KEY_SIZE)
-    rows = -(-len(labels) // columns)
-    count = len(labels)
-    while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
-        rows += 1
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
-    columns = -(-len(labels) // max(rows, 1)) or 1
-    axes.legend(ncols=columns, frameon=False, fontsize=size, handlelength=KEY_LINE, **place)
-    return rows
+    place |= {"frameon": False, "fontsize": size, "handlelength": KEY_LINE}
+    if figure.get_figwidth() <= NARROW_FIGURE:
+        place |= {"fontsize": min(size, SMALL_KEY_SIZE), **NARROW_KEY}
+    count = min(columns, len(labels)) or 1
+    while _excess(axes.legend(handles, labels, ncols=count, **place), axes) > 1 and count > 1:
+        count -= 1
+    excess = _excess(axes.get_legend(), axes)
+    if excess > 1 and labels:
+        letters = max(map(len, labels)) + KEY_LINE
+        labels = [fill(label, max(int(letters / excess - KEY_LINE), 1)) for label in labels]
+        axes.legend(handles, labels, ncols=count, **place)
+    per_column = -(-len(labels) // count)
+    return per_column + max((label.count("\n") for label in labels), default=0)
+
+
+def _excess(legend: Any, axes: Axes) -> float:
+    """Return the width of a ``legend`` over the room above its ``axes``, before the figure is laid out."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    return float(legend.get_window_extent().width / (KEY_ROOM * axes.get_position().width * figure.bbox.width))
+
+
+def fit_labels(figure: Figure) -> None:
+    """Break the labels of the axes of ``figure`` into lines that are no longer than the axes that they belong to, or than
+    there is room about these where nothing else is beside them."""
+    for _ in range(FIT_ROUNDS):
+        figure.draw_without_rendering()
+        whole = figure.bbox
+        for axes in figure.axes:
+            box = axes.get_window_extent()
+            is_lone = not any(_are_side_by_side(axes, other) for other in figure.axes if other is not axes)
+            middle = 0.5 * (box.x0 + box.x1)
+            room = 2 * min(middle - whole.x0, whole.x1 - middle) if is_lone else box.width
+            _break(axes.xaxis.label, axes.xaxis.label.get_window_extent().width / room)
+            _break(axes.yaxis.label, axes.yaxis.label.get_window_extent().height / box.height)
+
+
+def heighten(figure: Figure, least: float) -> None:
+    """Make ``figure`` so high that none of its axes is lower than ``least`` [inch] where long labels take its height."""
+    figure.draw_without_rendering()
+    shown = [axes for axes in figure.axes if axes.get_visible() and axes.get_subplotspec() is not None]
+    lowest = min(axes.get_window_extent().height for axes in shown) / figure.dpi
+    rows = max(axes.get_subplotspec().get_gridspec().nrows for axes in shown)  # type: ignore[union-attr]
+    if lowest < least:
+        figure.set_figheight(figure.get_figheight() + rows * (least - lowest))
+
+
+def _are_side_by_side(axes: Axes, other: Axes) -> bool:
+    """Return whether two axes have labels below them at the same height."""
+    one, two = (each.get_subplotspec() for each in (axes, other))
+    return one is not None and two is not None and one.rowspan == two.rowspan and one.colspan != two.colspan
+
+
+def _break(label: Text, excess: float) -> None:
+    """Break a ``label`` that is longer than its room, by the factor ``excess``, into lines."""
+    text = label.get_text().replace("\n", " ")
+    if excess > 1:
+        longest = max(map(len, label.get_text().splitlines()))
+        width = max(int(longest / excess), 1)
+        count = len(_lines(text, width))
+        while width > 1 and len(_lines(text, width - 1)) == count:  # lines of about equal lengths
+            width -= 1
+        label.set_text("\n".join(_lines(text, width)))
+
+
+def _lines(text: str, width: int) -> list[str]:
+    return wrap(text, width, break_long_words=False, break_on_hyphens=False)
 
 
 def hertz_strip(axes: Axes, half_width: float) -> None:

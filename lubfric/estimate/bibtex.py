@@ -29,7 +29,7 @@ def source_in_words(source: dict[str, Any]) -> str:
     authors = ", ".join(source["author"])
     doi = f", doi:{source['doi']}" if "doi" in source else ""
     if source["type"] == "software":
-        words = f"lubfric {source['version']}, {source['chapter']}"
+        words = ", ".join(filter(None, (f"lubfric {source['version']}", source.get("chapter", ""))))
     elif source["type"] == "techreport":
         words = f"{source['number']} ({year})"
     elif source["type"] == "book":
@@ -63,7 +63,7 @@ def _field(source: dict[str, Any], name: str) -> str:
         names = " and ".join(value)
         return f"{{{names}}}" if source["type"] in BY_ORGANISATION else names
     if name == "title":
-        return re.sub(r"\b(\w*[A-Z][\w.-]*)", r"{\1}", value)
+        return re.sub(r"(?<!°)\b(\w*[A-Z][\w.-]*)", r"{\1}", value).replace("°C", "{$^\\circ$C}")
     return str(value).replace("-", "--") if name == "pages" else str(value)
 
 

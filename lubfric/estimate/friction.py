@@ -55,7 +55,7 @@ def friction(
         your own
     fields : cells of ``result.fields``. False: those that the tolerance requires; True: native cells, if one patch is
         solved by load sharing, else as False; "fine": a part of the surface is solved again, with some 40 cells across
-        the Hertz strip
+        the Hertz strip, or with native ones where these are longer; moving roughness has the cells of its solve
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
         several. The numbers do not depend on it. A script that requests more than one needs ``if __name__ ==

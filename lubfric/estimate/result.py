@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from ..models import Balance, DeterministicResult
 
 
+# What lubfric itself is cited for where no source is a chapter of it.
+PROGRAM = "the program that computed the result"
+
+
 @described_in_doc
 @dataclass(frozen=True, repr=False, kw_only=True)
 class FrictionResult(Renamed, PointQuantities[float], Shown):
@@ -175,12 +179,15 @@ def _interval(interval: tuple[float, float]) -> str:
 
 
 def cited(methods: Iterable[str], format: str = "text") -> str:
-    """Return the papers of ``methods`` (keys of papers.toml), the model's first, in the ``format`` "text" or
-    "bibtex"."""
+    """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
+    "text" or "bibtex"."""
     validate.choice("format", format, ("text", "bibtex"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
+    if not any(source["type"] == "software" for source in sources):
+        program = papers["deterministic model"][0]  # a chapter of lubfric
+        sources.append(program | {"chapter": "", "purpose": PROGRAM})
     return bibtex(sources) if format == "bibtex" else "\n".join(map(source_in_words, sources))
 
 

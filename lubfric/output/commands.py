@@ -49,7 +49,7 @@ from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .progress import clear_active, state_part
 from .report import report_page
-from .run_files import OUTPUTS, RESOLVED_SCENE, RESULT
+from .run_files import BIBTEX_FILE, OUTPUTS, RESOLVED_SCENE, RESULT
 
 if TYPE_CHECKING:
     pass
@@ -318,6 +318,11 @@ def made(name: str, write: Callable[..., Any], *arguments: Any) -> bytes:
         return path.read_bytes()
 
 
+def references(result: Any) -> bytes:
+    """Return what a ``result`` cites as BibTeX."""
+    return f"{result.cite('bibtex')}\n".encode()
+
+
 def _as_json(record: dict[str, Any]) -> bytes:
     """Return ``record`` as JSON in plain types; null where a number is not finite."""
     return json.dumps(plain(record), indent=1, allow_nan=False).encode()
@@ -483,6 +488,7 @@ class RunFolder:
             record["map_sha256"] = self.map_checksums
         page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
         self.add("report.html", page, prepared, result)
+        self.add(BIBTEX_FILE, lambda: references(result))
         record = {"files": sorted([*self.contents, RESULT])} | record
         with self.reporting(f"{RESULT} has the numbers alone"):
             self.contents[RESULT] = _as_json(record)  # last: it appears when all files that it names are there

@@ -30,7 +30,7 @@ NOT_FULFILLED = "Assumptions of the model that the marked points do not fulfil (
 
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
-PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3, "temperature": 2.6}  # inch, at the usual width
+PANEL_HEIGHTS = {"friction": 2.7, "load": 1.7, "film": 1.9, "temperature": 1.7}  # inch, at the usual width
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
@@ -77,6 +77,7 @@ def plot_stribeck(
     for each in shown:
         figures.plain_ticks(each.xaxis)
     options.thin(figure)
+    figures.fit_labels(figure)
     figure.savefig(path)
 
 
@@ -153,6 +154,7 @@ def plot_traction(
     options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
     figures.plain_ticks(last.xaxis)
     options.thin(figure)
+    figures.fit_labels(figure)
     figure.savefig(path)
 
 

@@ -487,6 +487,8 @@ def _plot(
         (first, *others) = title.splitlines()
         speed = columns["speed"][np.isfinite(columns["coefficient"])][0]
         title = "\n".join([f"{first}, U = {speed:g} m/s", *others])
+    if options.is_narrow:  # what the answers rest on is for the caption
+        title = title.splitlines()[0]
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
 
 

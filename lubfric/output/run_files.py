@@ -7,6 +7,7 @@ from itertools import chain
 
 RESULT = "result.json"
 RESOLVED_SCENE = "resolved.toml"
+BIBTEX_FILE = "references.bib"  # what the result cites, as BibTeX
 
 # The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
 RESOLVED_STUDY = "resolved_study.toml"
@@ -87,6 +88,7 @@ RUN_FILES = (
     RunFile(name="law.c", runs=("stribeck",)),
     RunFile(name="fields.npz", runs=EVERY_RUN),
     RunFile(name="report.html", runs=EVERY_RUN),
+    RunFile(name=BIBTEX_FILE, runs=EVERY_RUN),
     RunFile(name=RESOLVED_SCENE, runs=EVERY_RUN),
     RunFile(name=RESULT, runs=EVERY_RUN),
 )

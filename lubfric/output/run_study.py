@@ -34,23 +34,24 @@ from .commands import (
     map_checksums,
     moment_reports,
     paced,
+    references,
     run_folder,
     say,
 )
 from .fit_picture import drawn_record, plot_fit
 from .fit_report import fit_page
 from .progress import ProgressLine
-from .run_files import RESOLVED_SCENE, RESOLVED_STUDY
+from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_pictures import STUDY_PICTURE, plot_study
-from .study_report import answer_lines, planned_point_in_words, study_page
+from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines
 
 if TYPE_CHECKING:
     pass
 
 
 def run_study(arguments: Namespace) -> None:
-    """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and report the smallest and the
-    largest f and power loss."""
+    """Plan, solve, write study.csv, study.png, report.html and references.bib (and study.nc, study.parquet), and report the
+    smallest and the largest f and power loss, and which points miss a tolerance."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     if arguments.cluster is not None and workers > 1:
         raise InputError("--cluster and --workers both say who solves; give one of them")
@@ -61,7 +62,8 @@ def run_study(arguments: Namespace) -> None:
     studies.check_tools(netcdf=arguments.netcdf, parquet=arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments, arguments.out, [*names, STUDY_PICTURE, "report.html", RESOLVED_SCENE, RESOLVED_STUDY])
+    others = (STUDY_PICTURE, "report.html", BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY)
+    check_outputs(arguments, arguments.out, [*names, *others])
     say(plan.explain(arguments.out))
     begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
@@ -87,10 +89,11 @@ def run_study(arguments: Namespace) -> None:
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
         folder.add("report.html", study_page, result, folder.contents, rows)
+        folder.add(BIBTEX_FILE, lambda: references(result))
         folder.add(RESOLVED_SCENE, lambda: plan.scene.to_toml(arguments.out).encode())
         folder.add(RESOLVED_STUDY, lambda: plan.to_toml(RESOLVED_SCENE).encode())
         folder.put()
-    for row in rows:
+    for row in (*rows, *tolerance_lines(result)):
         say(row)
     if result.failed:
         report = Report(

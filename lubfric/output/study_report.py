@@ -15,6 +15,7 @@ from ..estimate import PARTS
 from ..models.shared import (
     MODEL_ERROR,
     NUMERICAL_ERROR,
+    SAMPLING_ERROR,
     UnmodelledEffect,
     alpha_in_words,
     gathered_texts,
@@ -57,6 +58,8 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     **INTERVAL_COLUMNS,
     "full_load_film": None,
     "lambda_ratio": None,
+    "central_film": None,
+    "min_film": None,
     ASPERITY_LOAD_RATIO: None,
 }
 
@@ -92,12 +95,11 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
     import scipy
 
-    cells = [str(cell) for cell in columns_of_study(result)["validity"]]
-    gathered = gathered_texts(cells)
+    gathered = _gathered(result)
     warnings = [sentence(note) for note in result.plan.notes]
     warnings += [text for text in gathered if not is_note_text(text)]
     warnings += model_error_above_target(result)
-    notes = [text.replace(": note: ", ": ", 1) for text in gathered if is_note_text(text)]
+    notes = [_without_kind(text) for text in gathered if is_note_text(text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = (
@@ -128,6 +130,23 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         sources=_list(result.cite().splitlines()),
     )
     return page.encode()
+
+
+def _gathered(result: StudyResult) -> list[str]:
+    """Return one sentence for each assumption that does not hold somewhere, which names the points."""
+    return gathered_texts([str(cell) for cell in columns_of_study(result)["validity"]])
+
+
+def _without_kind(text: str) -> str:
+    """Return the ``text`` of a note without the word that says so."""
+    return text.replace(": note: ", ": ", 1)
+
+
+def tolerance_lines(result: StudyResult) -> list[str]:
+    """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
+    of_tolerances = (NUMERICAL_ERROR, SAMPLING_ERROR)
+    texts = [text for text in _gathered(result) if is_note_text(text)]
+    return [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
 
 
 def why_no_intervals(result: StudyResult) -> str:

@@ -19,6 +19,7 @@ from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
+from .study_lines import lines_over, name_of, name_places, shown_numbers, tick_values
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     check_tools,

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
-from ..estimate import FrictionResult, friction
+from ..estimate import FrictionResult, Uncertainty, friction
 from ..models import prepare, prepare_on_maps
-from ..models.shared import Prepared, in_a_cell
+from ..models.shared import SAMPLING_ERROR, Assumption, Prepared, Violation, in_a_cell
 from ..quantities import NUMBERS
 from ..samples import is_measured, whole_maps
 from ..scene import Scene
@@ -151,4 +151,22 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers |= {f"uncertainty_{name}": value for name, value in errors.items() if isinstance(value, float)}
     numbers |= zip(INTERVAL_COLUMNS["coefficient"], outcome.uncertainty.interval)
     numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
-    return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
+    violations = (*outcome.validity, *_missed_sampling_tolerance(outcome.uncertainty))
+    return {STATUS: outcome.report.status, VALIDITY: in_a_cell(violations), **numbers}
+
+
+def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
+    """Yield a note if the standard error of f by the finite sample is above its tolerance. A single point has it among the
+    notes of its ``uncertainty``; a table has it among the assumptions that do not hold, as the numerical error."""
+    if uncertainty.sampling > uncertainty.tolerance:
+        times = uncertainty.area_needed
+        yield Violation(
+            assumption=Assumption.SAMPLING_ERROR,
+            what=SAMPLING_ERROR,
+            is_note=True,
+            value=100 * uncertainty.sampling,
+            limit=100 * uncertainty.tolerance,
+            unit="%",
+            consequence="this is more than numerics.sampling_tolerance; the interval of f includes it",
+            recommendation=f"a surface of about {times:.2g} times the area" if times > 1 else "",
+        )

@@ -27,8 +27,9 @@ from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
 from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, MapError, solved_together
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
+from .study_lines import plot
 from .study_table import StudyTable
-from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Points that a process of an executor receives at once. A choice: more waits for longer, fewer cost messages.

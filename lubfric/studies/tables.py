@@ -32,22 +32,8 @@ if TYPE_CHECKING:
 OF_INTERVAL = (("model_error", "--"), ("sampling_error", ":"))
 
 BAND = "95 % interval"
-# Lines of a plot, at most. A choice, by looking at the figures.
-MOST_PLOTTED_LINES = 500
-
-# Lines of a plot that get a label, at most. A choice, by looking at the figures.
-NAMED = 10
-
-# Values of the first number that is varied that are named with their colour, at most; more are read off a bar. A
-# choice, by looking at the figures.
-NAMED_SHADES = 6
-
-# Part of the colours that are dark enough to be seen on white [-]: without yellow. A choice, by looking at the figures.
-DARK_SHADES = 0.85
-
-# Markers and dashes of the values of a second number that is varied, one pair for each; more values have none. A
-# choice, by looking at the figures.
-STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
+# Lines of operating points, at most. A choice, by looking at the figures.
+MOST_OF_POINTS = 10
 
 # Quantities of operating points that jump, or have a minimum, where the direction of sliding changes.
 OF_SLIDING = "coefficient", "power_loss"
@@ -121,75 +107,6 @@ def columns_of_study(result: Any) -> dict[str, np.ndarray]:
     return {name: values[used] for name, values in columns.items()}
 
 
-def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """Draw f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines.
-    Many curves are coloured by the first number that is varied, and have markers and dashes by the second. Where speeds
-    were chosen, the lines are interpolated."""
-    from matplotlib import colormaps
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import ListedColormap, Normalize
-
-    if result.paired:
-        return plot_points(result, "coefficient", ax, **style)
-    axes = figures.axes_or_new(ax)
-    indices = list(np.ndindex(*result.status.shape[:-1]))
-    count = len(indices)
-    indices = indices[:: -(-count // MOST_PLOTTED_LINES)]
-    few = len(indices) <= NAMED
-    shades: np.ndarray = np.linspace(0.0, 1.0, len(indices))
-    colours = ListedColormap(colormaps["viridis"](np.linspace(0.0, DARK_SHADES, 256)))
-    keys = [k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f" and v.size > 1]
-    key = next(iter(keys), None)
-    styles: dict[float, Any] = {}
-    if len(keys) > 1 and not few and np.unique(result.coords[keys[1]][1]).size <= len(STYLES):
-        styles = dict(zip(np.unique(result.coords[keys[1]][1]).tolist(), STYLES))
-    if key is not None and not few:
-        dim, values = result.coords[key]
-        distinct = np.unique(values)
-        is_named = distinct.size <= NAMED_SHADES
-        scale = Normalize(values.min(), values.max())
-        of_curves = values[[index[result.dims.index(dim)] for index in indices]]
-        shades = np.searchsorted(distinct, of_curves) / (distinct.size - 1) if is_named else scale(of_curves)
-        if is_named:
-            for value, colour in zip(distinct.tolist(), colours(np.linspace(0.0, 1.0, distinct.size))):
-                axes.plot([], [], color=colour, lw=2.0, label=_named(key, value))
-        else:
-            axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
-    for index, colour in zip(indices, colours(shades)):
-        named = figures.plain_words(label(result.plan, index)) if few else None
-        line_style: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named}
-        if styles:
-            dim, values = result.coords[keys[1]]
-            marker, dashes = styles[float(values[index[result.dims.index(dim)]])]
-            line_style |= {"marker": marker, "ls": dashes, "ms": 3.5}
-        line_style |= style
-        speed = np.abs(result.speeds(index))
-        f = result.columns["coefficient"][index]
-        curve = result.curve(index) if result.chosen else None
-        good = np.flatnonzero(np.isfinite(f) & (speed > 0))
-        good = good[np.argsort(speed[good])]
-        dots: dict[str, Any] = {"marker": "o", "ms": 3} if few or curve is None else {}
-        if curve is not None:
-            fine = np.geomspace(speed[good][0], speed[good][-1], LINE_POINTS)
-            axes.plot(fine, curve.at(fine), **line_style)
-            line_style |= {"ls": "", "label": None}
-        axes.plot(speed[good], f[good], **dots | line_style)
-    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION_LABEL)
-    figures.plain_ticks(axes.xaxis)
-    for value, (marker, dashes) in styles.items():
-        axes.plot([], [], color=figures.GREY, lw=1.0, ls=dashes, marker=marker, ms=3.5, label=_named(keys[1], value))
-    has_key = len(axes.get_legend_handles_labels()[1]) > 1
-    rows = figures.key_above(axes, 2) if has_key else 0
-    some = "" if len(indices) == count else f": {len(indices)} of {count} curves"
-    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
-    return axes
-
-
-def _named(key: str, value: float) -> str:
-    """Return the ``value`` of a varied ``key`` with its name, as a key of lines says it."""
-    return f"{COLUMNS[key].label} {worded_value(key, value)}" if key in COLUMNS else f"{key} {value:g}"
-
-
 def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = None, **style: Any) -> Axes:
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
@@ -207,7 +124,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     order = np.argsort(over, kind="stable")
     unit = unit_of_largest(result[quantity].ravel().tolist(), COLUMNS[quantity].unit)
     times = converted(1.0, COLUMNS[quantity].unit, unit)
-    indices = list(np.ndindex(*result.status.shape[:-1]))[:NAMED]
+    indices = list(np.ndindex(*result.status.shape[:-1]))[:MOST_OF_POINTS]
     gaps: dict[str, Any] = {"color": figures.GREY, "alpha": 0.12, "lw": 0, "label": "the sliding changes its direction"}
     for index in indices:
         values = times * result[quantity][index][order]

@@ -166,3 +166,36 @@ def test_sources_come_as_bibtex():
     assert point.cite("bibtex").count("@") == len(point.cite().splitlines())
     with pytest.raises(lubfric.InputError, match="format"):
         point.cite(format="word")
+
+
+def test_every_result_cites_lubfric_once():
+    """Whatever model answered: the program with its version, as a line and as an entry of BibTeX."""
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+    curve = lubfric.traction(PATCH, [0.0, 0.5], speed=0.1)
+    for result in (
+        curve,
+        lubfric.friction(PATCH, 0.03),
+        lubfric.study(PATCH, {}, [0.03]),
+        lubfric.friction(scene, 1.0),
+    ):
+        lines = [line for line in result.cite().splitlines() if line.startswith(f"lubfric {lubfric.__version__}")]
+        assert len(lines) == 1 and result.cite("bibtex").count("@software{lubfric,") == 1
+
+
+def test_degrees_in_an_entry_are_of_latex():
+    entry = cited(["viscosity index"], "bibtex")
+    assert "at 40 {$^\\circ$C} and 100 {$^\\circ$C}" in entry and "°" not in entry
+
+
+def test_commands_write_the_sources_as_bibtex(tmp_path):
+    """Beside the report of a run and of a study: the entries of what it cites."""
+    (tmp_path / "small.toml").write_text(PATCH.to_toml())
+    (tmp_path / "study.toml").write_text('scene = "small.toml"\nspeeds = [0.03]\n')
+    out = {name: tmp_path / name for name in ("curve", "traction", "study")}
+    assert main(["run", str(tmp_path / "small.toml"), "--speeds", "0.03", "--out", str(out["curve"])]) == 0
+    assert main(["run", str(tmp_path / "small.toml"), "--ratios", "0.5", "--out", str(out["traction"])]) == 0
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(out["study"])]) == 0
+    expected = lubfric.friction(PATCH, 0.03).cite("bibtex") + "\n"
+    assert (out["curve"] / "references.bib").read_text(encoding="utf-8") == expected
+    assert (out["study"] / "references.bib").read_text(encoding="utf-8") == expected
+    assert "@software{lubfric," in (out["traction"] / "references.bib").read_text(encoding="utf-8")

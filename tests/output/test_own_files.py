@@ -21,7 +21,7 @@ MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
 FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
 # Files of the user in the folder of the results, by kind of command: their names make the command refused.
 IN_THE_WAY = {
-    "run": "stribeck.csv stribeck.png fields.npz contact.png surface.png law.json law.c report.html result.json "
+    "run": "stribeck.csv stribeck.png fields.npz contact.png surface.png law.json law.c report.html references.bib result.json "
     "sharing.png resolved.toml .lubfric .lubfric.lock unfinished",
     "history": "history.csv history.png fields.npz surface.png report.html resolved.toml result.json unfinished",
     "study": "study.csv .lubfric",

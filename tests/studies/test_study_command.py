@@ -1,5 +1,6 @@
 """``lubfric study``: files written, study files read strictly, exit codes, broken streams, interrupts."""
 
+import csv
 import os
 import re
 import signal
@@ -50,7 +51,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
     assert (
         "8 points" in said
         and "[8/8]" in said
-        and "wrote report.html, resolved.toml, resolved_study.toml, study.csv" in said
+        and "wrote references.bib, report.html, resolved.toml, resolved_study.toml" in said
     )
     assert re.search(r"in [\d.]+ s \([\d.]+ s of processor time", " ".join(said.split()))
     result = lubfric.open_study(tmp_path / "out")
@@ -161,6 +162,10 @@ def test_numbers_that_are_spaced_by_factors_have_a_logarithmic_axis(values, is_l
     assert (axes.get_xscale() == "log") == is_log
 
 
+# More keys of a study than its picture has panels.
+EXTRA = {"surface.sq": 1e-7, "lubricant.viscosity": 0.2, "bodies.boundary_friction_coefficient": 0.1}
+
+
 def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatch):
     drawn = []
     new_figure = study_pictures.figures.new_figure
@@ -168,11 +173,25 @@ def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatc
         study_pictures.figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1]
     )
     vary = {"bodies.load": [3.0, 2.0], "numerics.heat": ["off", "auto"]}
-    result = numbered(vary, lambda scene: scene.bodies.load)
+    result = numbered(vary, lambda scene: scene.bodies.load + (scene.numerics.heat == "auto"))
     study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[-1].axes
-    np.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[1, 3], [2, 3], [3, 2], [4, 2]])
-    assert "study.csv" in axes.get_xlabel()
+    lines = [line for line in axes.lines if not line.get_label().startswith("_")]
+    for line, heat, f in zip(lines, ("off", "auto"), ([2, 3], [3, 4]), strict=True):
+        assert line.get_label() == f"heat {heat}"
+        np.testing.assert_array_equal(line.get_xydata(), np.transpose([[2, 3], f]))
+    keys = ["bodies.load", "numerics.heat", *(f"bodies.{name}" for name in ("radius", "width", "hardness", "e_prime"))]
+    values = [3.0, "off", 2e-3, 1e-3, 6e9, 2e11]
+    more = {
+        tuple([*keys, *EXTRA]): [
+            tuple([*values, *EXTRA.values()]),
+            tuple([2.0, "auto", *(1.1 * v for v in (*values[2:], *EXTRA.values()))]),
+        ]
+    }
+    study_pictures.plot_study(tmp_path / "study.png", numbered(more, lambda scene: scene.bodies.load))
+    (axes,) = drawn[-1].axes
+    np.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[1, 3], [2, 2]])
+    assert "study.csv" in " ".join(axes.get_xlabel().split())
 
 
 def test_explain_solves_nothing(tmp_path, capsys):
@@ -261,3 +280,33 @@ def test_the_picture_of_a_study_is_drawn_again_for_a_journal(tmp_path, drawn):
     assert main(["plot", str(out), "--name", "again"]) == 0
     assert (out / "again.png").read_bytes() == before == (out / "study.png").read_bytes()
     assert main(["plot", str(out), "--panels", "load"]) != 0
+
+
+MISSED = "standard error of f by the sample of the surface is"
+
+
+def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys):
+    """On the console and in the report together, in study.csv each by itself: those whose error is above it."""
+    scene = SMALL.with_(
+        contact={"shape": (48, 96)}, surface={"correlation_length": 2.5e-6}, numerics={"sampling_tolerance": 1e-3}
+    )
+    (tmp_path / "small.toml").write_text(scene.to_toml())
+    (tmp_path / "s.toml").write_text('scene = "small.toml"\nspeeds = [0.1, 1.0]\n[vary]\nbodies.load = [3.0, 5.5]\n')
+    assert main(["study", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == 0
+    above = lubfric.open_study(tmp_path / "out")["uncertainty_sampling"].ravel() > 1e-3
+    where = f"At point{'s' if above.sum() > 1 else ''} {' and '.join(str(i + 1) for i in np.flatnonzero(above))}"
+    said, page = capsys.readouterr().err, (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    with (tmp_path / "out" / "study.csv").open(encoding="utf-8") as table:
+        cells = [row["validity"] for row in csv.DictReader(table)]
+    assert [MISSED in cell for cell in cells] == above.tolist() and 0 < above.sum() < above.size
+    for text in (said, page):
+        words = " ".join(text.split())
+        assert words.count(f"{where}: {MISSED}") == words.count("error of f by the sample") == 1
+
+
+def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
+    result = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
+    cell = "note: estimated numerical error of f is 7 %, above 5 %. It is in the interval."
+    cells = np.array(["", cell, cell]).reshape(result.validity.shape)
+    (line,) = study_report.tolerance_lines(replace(result, validity=cells))
+    assert line.startswith("At points 2 and 3: estimated numerical error of f is 7 %, above 5 %.")

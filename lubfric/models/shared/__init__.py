@@ -7,6 +7,7 @@ errors of means along a line and the number of strips that they need; `wording` 
 
 from .checks import (
     NUMERICAL_ERROR,
+    SAMPLING_ERROR,
     is_of_impossible_stress,
     peak_hertz_pressure,
     violations_by_deflection,

@@ -64,8 +64,10 @@ DEFLECTION_OF_TOTAL_LOAD = "numerics.film_deflection = 'scaled'"
 # it decides where a point is refused, no number.
 ON_ENDS = 0.01
 
-# Name of the numerical error where it is above the requested tolerance; tables of studies hold it as text.
+# Names of the numerical and of the sampling error where they are above their tolerances; tables of studies hold them as
+# text.
 NUMERICAL_ERROR = "estimated numerical error of f"
+SAMPLING_ERROR = "standard error of f by the sample of the surface"
 
 # Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: an
 # extrapolation from grid to grid is no more than an order of magnitude there.

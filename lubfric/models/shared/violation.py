@@ -66,6 +66,7 @@ class Assumption(StrEnum):
     CALIBRATED = "contact like those of the calibration"
     RESOLVED_SHEAR = "resolved shear stress in time"
     NUMERICAL_ERROR = "numerical error within its tolerance"
+    SAMPLING_ERROR = "sampling error within its tolerance"
     MODEL_FORM_ERROR = "model-form error within its tolerance"
 
 
