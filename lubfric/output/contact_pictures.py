@@ -80,6 +80,7 @@ def plot_contact(path: Path, contact: DrawnContact, options: PictureOptions = Pi
         figure = _deterministic_picture(contact, options)
     else:
         figure = _two_pressures(contact, options)
+    figures.fit_labels(figure)
     figure.savefig(path)
 
 

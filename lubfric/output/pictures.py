@@ -319,6 +319,7 @@ def plot_history(
     fourth.set_xlim(t[0], t[-1])
     options.scale(fourth, friction=fourth, f=c["coefficient"])
     options.thin(figure)
+    figures.fit_labels(figure)
     figure.savefig(path)
 
 
