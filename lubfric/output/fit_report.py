@@ -73,7 +73,10 @@ def fit_page(
         parameters=_parameters_table(result),
         pictures="".join(shown),
         undetermined=bullets(
-            [sentence(text) for text in result.identifiability], "The data determine every parameter within its bounds."
+            [sentence(text) for text in result.identifiability],
+            "The data determine every parameter within its bounds."
+            if result.describes_data
+            else "Not known, because the fit does not describe the data.",
         ),
         residuals=bullets(residuals_in_words(result)),
         warnings=warnings_and_notes(result.validity),
@@ -126,10 +129,9 @@ def fit_answer(result: FitResult) -> list[str]:
         f"The fitted curve deviates from the {counted(measured.x.size, 'measured points')} of {measured.source}, over {what}, by "
         f"{100 * result.rms_deviation:.2g} % of the measured f (root mean square).",
     ]
-    if result.describes_data:
-        sentences.append("The intervals hold the scatter of the data and the numerical error of f.")
-    else:
-        sentences.append("No interval is valid, because the fit does not describe the data.")
+    if not result.describes_data:
+        return [*sentences, "No interval is valid, because the fit does not describe the data."]
+    sentences.append("The intervals hold the scatter of the data and the numerical error of f.")
     return [*sentences, *(sentence(text) for text in result.not_in_intervals)]
 
 
@@ -192,6 +194,8 @@ def _parameters_table(result: FitResult) -> str:
 
 def _determined(result: FitResult, key: str) -> str:
     """Return whether the data determine a parameter, in words."""
+    if not result.describes_data:
+        return "not known"
     if key in result.undetermined:
         return "no"
     sides = result.undetermined_sides.get(key, ())
@@ -205,12 +209,12 @@ def residuals_in_words(result: FitResult) -> list[str]:
     if tests is None:
         return ["The residuals were not tested."]
     lines = [sentence(text) for text in (tests.text, tests.note) if text]
-    if math.isfinite(tests.size):
+    if math.isfinite(tests.size) and not tests.too_large:
         lines.append(
             f"The residuals are {tests.times_stated:.2g} times as large as the stated deviations (root mean square, with the degrees "
             "of freedom that the parameters leave)."
         )
-    elif not tests.too_far:
+    elif math.isnan(tests.size) and not tests.too_far:
         lines.append(
             f"The deviations of the points are not stated: {100 * tests.relative:.2g} % of f (root mean square) is a scatter that "
             "measurements have."

@@ -329,6 +329,7 @@ class FitResult(Renamed, Shown):
             note = f" (not determined {' and '.join(sides)})" if sides else ""
             note = " (not determined)" if key in self.undetermined else note
             note += " (on its bound)" if key in self.at_bounds else ""
+            note += "" if self.describes_data else " (not valid)"
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
         scatter = f"{100 * self.rms_deviation:.2g} % of the measured f"

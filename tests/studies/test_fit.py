@@ -604,3 +604,21 @@ def test_f_at_another_boundary_friction_is_that_of_solving_again(changes):
     assert np.all(low["boundary_force"] > 0)
     np.testing.assert_allclose(result.slopes[:, 0], high.coefficient - low.coefficient, rtol=0.02)
     assert result.values[FRICTION] == pytest.approx(0.12, rel=0.01)
+
+
+def test_the_report_of_a_fit_that_does_not_describe_the_data_states_no_interval(tmp_path, capsys):
+    f = made_up(1, noise=0.005).coefficient * np.where(SPEEDS > 0.02, 1.5, 1.0)
+    rows = [f"{u:.6g},{value:.6g},{0.005 * value:.6g}" for u, value in zip(SPEEDS, f)]
+    (tmp_path / "rig.csv").write_text("\n".join(["U [m/s],mu,s", *rows]))
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    command = ["fit", str(tmp_path / "scene.toml"), "--measured", str(tmp_path / "rig.csv"), "--speed", "U"]
+    command += ["--coefficient", "mu", "--deviation", "s", "--parameter", f"{FRICTION}=0.05:0.2"]
+    assert main([*command, "--out", str(tmp_path / "out")]) == 0
+    assert "(not valid)" in capsys.readouterr().err
+    page = (tmp_path / "out" / "report.html").read_text()
+    (answer, _, rest) = page.partition("<h2>Answer</h2>")[2].partition("<h2>Warnings</h2>")
+    assert 'class="status failed"' in page and "The fit converged, but does not describe the data" in page
+    assert (
+        "at 95 %)" not in answer and "not valid</td>" in answer and "times as large as the stated deviations" in answer
+    )
+    assert "95 % interval</th>" in rest and rest.count("not valid</td>") == SPEEDS.size
