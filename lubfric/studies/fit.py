@@ -34,8 +34,8 @@ LAST_CHANGE_OF_SUM = 1e-4
 # Most curves of the search, beside those of the differences. A choice: a bound of the work.
 MOST_CURVES = 30
 
-# Curves of the fit by the scene's own model, about, beside two for each parameter whose change takes a solve: at the start
-# and at the fitted values.
+# Curves of the fit by the scene's own model, about, beside two for each parameter: at the start and at the fitted values. 3 to 5
+# were solved for one parameter, 4 to 14 for f_b and another one, 2 or 3 for f_b alone.
 USUAL_CURVES = 2
 
 # Beginnings of the trust region, at most: at a start, and again at fitted values that were not solved yet, or at a lower curve
@@ -191,8 +191,8 @@ def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: in
 
 
 def _usual_curves(fine: FitCurves) -> int:
-    """Return about how many curves a trust region solves."""
-    return 2 * fine.changed + USUAL_CURVES
+    """Return about how many curves a trust region solves: none for its steps where f_b alone changes."""
+    return USUAL_CURVES + (2 * len(fine.parameters) if fine.changed else 0)
 
 
 def _curves(
