@@ -32,6 +32,7 @@ MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
 MAP_ABOVE = 1.0  # inch above and below a map: title and labels
 PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 INLET_PRESSURE = 0.01  # of the largest mean pressure along the line, from which on an inlet is drawn
+LEAST_HEIGHT = 4.0  # inch: height of both beside each other across a page, with the bar and the key above them
 SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
 CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
@@ -253,7 +254,10 @@ def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figu
     size = (width * sum(ratios), height)
     if options.width is not None:
         whole = options.width / INCH
-        size = (whole, whole * (PANEL_RATIO * count if options.is_narrow else height / size[0]))
+        size = (
+            whole,
+            whole * PANEL_RATIO * count if options.is_narrow else max(whole * height / size[0], LEAST_HEIGHT),
+        )
     figure = figures.new_figure(figsize=size, layout=_layout(options))
     if options.is_narrow:
         shown = figure.subplots(count, 1, squeeze=False)

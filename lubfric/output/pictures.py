@@ -31,6 +31,7 @@ NOT_FULFILLED = "Assumptions of the model that the marked points do not fulfil (
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 2.7, "load": 1.7, "film": 1.9, "temperature": 1.7}  # inch, at the usual width
+HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8, 1.4)  # inch, at the usual width: speeds, films, load ratios, f, power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
@@ -280,7 +281,7 @@ def plot_history(
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
     has_power = "power_loss" in c and bool(np.any(c["power_loss"] > 0))
-    heights = [2.2, 2.2, 2.2, 2.6, *([2.2] if has_power else [])]
+    heights = [*HISTORY_HEIGHTS[: 5 if has_power else 4]]
     figure = figures.new_figure(figsize=options.size(heights))
     first, second, third, fourth, *others = figure.subplots(len(heights), 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k", label="entrainment speed $U$")

@@ -82,6 +82,9 @@ IN_PURE_ROLLING = (
     "of both surfaces together, in which the pressure on the flanks of moving roughness (in f by the deterministic model) cancels"
 )
 
+# Where the points are listed that a sentence has no room for.
+ALL_IN_TABLE = " The column validity of study.csv has all of them."
+
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")
 
@@ -146,7 +149,8 @@ def tolerance_lines(result: StudyResult) -> list[str]:
     """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
     of_tolerances = (NUMERICAL_ERROR, SAMPLING_ERROR)
     texts = [text for text in _gathered(result) if is_note_text(text)]
-    return [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
+    lines = [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
+    return [f"{line}{ALL_IN_TABLE if ', ...)' in line else ''}" for line in lines]
 
 
 def why_no_intervals(result: StudyResult) -> str:

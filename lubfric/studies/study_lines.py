@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base import figures
-from ..quantities import COLUMNS, KEYS, axis_label
-from ..units import ZERO_CELSIUS, converted, unit_of_largest
+from ..quantities import COLUMNS, axis_label
 from .operating_points import INTERVAL_COLUMNS
 from .plan import StudyPlan
 from .points import SPEED
-from .tables import BAND, LINE_POINTS, label, plot_points
+from .tables import BAND, LINE_POINTS, label, plot_points, shown_numbers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -221,17 +220,6 @@ def _values_over(result: Any, over: str) -> tuple[np.ndarray, str]:
 def name_of(key: str) -> str:
     """Return what the axis of a ``key`` that takes names is called."""
     return COLUMNS[key].label if key in COLUMNS else key.rpartition(".")[2].replace("_", " ")
-
-
-def shown_numbers(key: str, values: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return the ``values`` [SI] of a ``key`` in a unit of people, and the label of their axis; a temperature in °C."""
-    if key == "lubricant.temperature":
-        return values - float(ZERO_CELSIUS), axis_label("lubricant.temperature_celsius")
-    if key not in KEYS and key not in COLUMNS:
-        return values, axis_label(key)
-    si = KEYS[key].unit if key in KEYS else COLUMNS[key].unit
-    unit = unit_of_largest(np.asarray(values, dtype=float).ravel().tolist(), si)
-    return np.asarray(converted(values, si, unit)), axis_label(key, unit)
 
 
 def _draw_intervals(

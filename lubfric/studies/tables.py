@@ -13,9 +13,9 @@ from scipy.interpolate import PchipInterpolator
 from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..models.shared import half_width_of_error
-from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
+from ..quantities import COLUMNS, KEYS, Quantity, axis_label, described, heading, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
-from ..units import converted, unit_of_largest, worded
+from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
@@ -176,6 +176,17 @@ def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
+def shown_numbers(key: str, values: np.ndarray) -> tuple[np.ndarray, str]:
+    """Return the ``values`` [SI] of a ``key`` in a unit of people, and the label of their axis; a temperature in °C."""
+    if key == "lubricant.temperature":
+        return values - float(ZERO_CELSIUS), axis_label("lubricant.temperature_celsius")
+    if key not in KEYS and key not in COLUMNS:
+        return values, axis_label(key)
+    si = KEYS[key].unit if key in KEYS else COLUMNS[key].unit
+    unit = unit_of_largest(np.asarray(values, dtype=float).ravel().tolist(), si)
+    return np.asarray(converted(values, si, unit)), axis_label(key, unit)
+
+
 def place_in_words(plan: StudyPlan, index: tuple[Any, ...], speed: float) -> str:
     """Return where a point lies, as text: the values of what is varied, and its ``speed`` [m/s]."""
     return ", ".join(filter(None, (label(plan, index), f"speed {worded(speed, 'm/s')}")))
@@ -318,7 +329,7 @@ def plot_map(
     size: tuple[float, float] = MAP_SIZE,
 ) -> None:
     """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
-    ``"motion.slide_roll_ratio"``.
+    ``"motion.slide_roll_ratio"``, each in a unit in which its largest value is 1 or more.
 
     ``size``: width and height [inch]. Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
     of which there are two at least.
@@ -333,7 +344,7 @@ def plot_map(
         raise InputError(f"a map needs two dimensions, this study varies {', '.join(study.dims)} as well")
     axes = [study.dims.index(d) for d in dims]
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
-    x, y = (_numbers(key, coords[key][1]) for key in (across, up))
+    (x, x_label), (y, y_label) = (shown_numbers(key, _numbers(key, coords[key][1])) for key in (across, up))
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
     figure = figures.new_figure(figsize=size)
     ax = figure.subplots()
@@ -351,7 +362,7 @@ def plot_map(
         figures.log_if_wide(ax, "x", x)
         figures.log_if_wide(ax, "y", y)
         figure.colorbar(shown, label=bar)
-    ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
+    ax.set(xlabel=x_label, ylabel=y_label, title=title)
     figure.savefig(path, dpi=150)
 
 

@@ -389,7 +389,7 @@ def kept(solved, tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("width", ["85 mm", "180 mm"])
+@pytest.mark.parametrize("width", ["85 mm", "120 mm", "180 mm"])
 def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypatch, width):
     """With the same numbers, at the width of a journal's column, and all texts within it."""
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, draw: draw(name) or b"a picture")
@@ -479,11 +479,11 @@ def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, tmp_
     for (across, up), expected in zip((("speed", "lubricant.viscosity"), ("lubricant.viscosity", "speed")), (f, f.T)):
         plot_map(tmp_path / "x.png", study, across, up)
         axes = figures[-1].axes[0]
-        assert axes.get_xlabel().endswith({"speed": "(m/s)"}.get(across, "(Pa s)"))
-        assert axes.get_ylabel().endswith({"speed": "(m/s)"}.get(up, "(Pa s)"))
+        assert axes.get_xlabel().endswith({"speed": "(m/s)"}.get(across, "(mPa s)"))
+        assert axes.get_ylabel().endswith({"speed": "(m/s)"}.get(up, "(mPa s)"))
         np.testing.assert_array_equal(axes.images[0].get_array(), expected)  # few values are no contours
         ticks = [[float(tick.get_text()) for tick in axis.get_ticklabels()] for axis in (axes.xaxis, axes.yaxis)]
-        assert ticks == [{"speed": [1.0, 2.0, 4.0]}.get(key, [0.2, 0.4]) for key in (across, up)]
+        assert ticks == [{"speed": [1.0, 2.0, 4.0]}.get(key, [200.0, 400.0]) for key in (across, up)]
     study.to_csv(tmp_path / "study.csv")
     with (tmp_path / "study.csv").open() as file:
         names = "lubricant.viscosity [Pa s]", "speed [m/s]", "coefficient [-]"

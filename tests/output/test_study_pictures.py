@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.output import run_curve, study_pictures
+from lubfric.output import pictures, run_curve, study_pictures
 from lubfric.output.picture_options import PictureOptions
 from lubfric.studies import StudyResult
 
@@ -217,3 +217,17 @@ def test_a_curve_fits_a_column_and_a_page(tmp_path, drawn, width, over):
     assert figure.get_figheight() <= (COLUMN_HEIGHT if width == WIDTHS["column"] else 8.0)
     assert min(axes.bbox.height for axes in figure.axes) > 0.6 * figure.dpi
     assert len(figure.get_suptitle().splitlines()) <= (2 if width == WIDTHS["column"] else 4)
+
+
+@pytest.mark.parametrize("width", WIDTHS.values(), ids=WIDTHS)
+def test_a_run_in_time_fits_a_column_and_a_page(tmp_path, drawn, width):
+    t = np.linspace(0.0, 0.02, 9)
+    columns = dict.fromkeys(("full_load_film", "central_film", "min_film", "mean_gap"), 1e-7 * (1 + t))
+    columns |= dict.fromkeys(("boundary_force", "couette_force", "rolling_force", "contact_load"), 0.1 + t)
+    columns |= {"time": t, "entrainment_speed": 0.1 + t, "sliding_speed": 0.2 + t, "load": 5.0 + t}
+    columns |= {"coefficient": 0.1 + t, "interval_low": 0.08 + t, "interval_high": 0.13 + t, "power_loss": 0.01 + t}
+    columns |= {"power_loss_low": 0.008 + t, "power_loss_high": 0.013 + t}
+    pictures.plot_history(tmp_path / "x.png", columns, SCENE.name, options=PictureOptions(width=width))
+    (figure,) = drawn
+    assert faults(figure) == []
+    assert figure.get_figheight() <= (COLUMN_HEIGHT if width == WIDTHS["column"] else 8.5)

@@ -310,3 +310,21 @@ def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
     cells = np.array(["", cell, cell]).reshape(result.validity.shape)
     (line,) = study_report.tolerance_lines(replace(result, validity=cells))
     assert line.startswith("At points 2 and 3: estimated numerical error of f is 7 %, above 5 %.")
+    assert "study.csv" not in line
+    many = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
+    every_second = np.array(["", cell] * 20).reshape(many.validity.shape)
+    (line,) = study_report.tolerance_lines(replace(many, validity=every_second))
+    assert "At 20 of 40 points (2, 4, 6," in line and line.endswith("column validity of study.csv has all of them.")
+
+
+def test_the_table_of_a_report_has_the_films():
+    """In one unit each, with the lambda ratio beside them."""
+    result = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.1)
+    films = {"central_film": [2e-7, 3e-7], "min_film": [1.1e-7, 1.2e-7], "lambda_ratio": [0.7, 0.8]}
+    columns = {name: np.reshape(values, result.status.shape) for name, values in films.items()}
+    page = study_report.study_page(replace(result, columns=result.columns | columns), {}, []).decode()
+    heads = re.findall(r"<th[^>]*>([^<]*)</th>", page)
+    rows = re.findall(r"<tr>(.*?)</tr>", page.split("central separation [nm]</th>")[1], re.DOTALL)
+    places = [heads.index(name) for name in ("central separation [nm]", "smallest film thickness [nm]", "lambda ratio")]
+    cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows[:2]]
+    assert [[row[place] for place in places] for row in cells] == [["200", "110", "0.7"], ["300", "120", "0.8"]]
