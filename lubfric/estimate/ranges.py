@@ -148,5 +148,6 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
         inputs=relative if is_complete else math.nan,
         input_sides=sides,
         notes=(*old.notes, *notes),
+        inputs_in_interval=tuple(moved),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )

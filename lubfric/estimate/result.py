@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
-from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation
+from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation, alpha_beside_interval
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
 from .uncertainty import NumberErrors, Uncertainty
@@ -84,13 +84,16 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def not_in_interval(self) -> str:
-        """Effects on f that neither f nor its interval includes, as text; "" if there are none."""
+        """Heat that neither f nor its interval includes, and the range of an estimated pressure-viscosity coefficient, which the
+        interval does not include, as text; "" if there are none."""
         heat = [violation for violation in self.validity if violation.assumption == Assumption.HEAT_INCLUDED]
-        return (
-            f"f and its interval are without the heat of the film, which lowers f by up to {heat[0].value_in_words} %"
-            if heat
-            else ""
-        )
+        parts = [
+            f"f and its interval are without the heat of the film, which lowers f by up to {each.value_in_words} %"
+            for each in heat[:1]
+        ]
+        has_interval = math.isfinite(self.uncertainty.sampling)
+        by_alpha = alpha_beside_interval(self.unmodelled_effects) if has_interval else ""
+        return "; ".join(filter(None, (*parts, by_alpha)))
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used for this result, the model's first: one a line, or with

@@ -95,6 +95,7 @@ PARTS = {
     "input": BudgetPart(
         quantity="inputs",
         label="input (stated ranges)",
+        name_in_words=lambda uncertainty: uncertainty.input_in_words,
         is_stated_if_zero=False,
         sides="input_sides",
         recommendation=lambda uncertainty: f"a measured {uncertainty.largest_input or 'value'} reduces it",
@@ -131,6 +132,9 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     narrows_numerical, narrows_sampling : what narrows ``numerical`` and ``sampling``, as text
     missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
+    inputs_in_interval : keys of the inputs whose ranges the interval contains
+    cut : why the interval is narrower than the budget says, as text: a limit of the shear stress, or the sense of the sliding,
+        excludes what is beyond (``notes`` has the numbers)
     """
 
     coefficient: float = math.nan
@@ -145,6 +149,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
     missing_input: str = ""
     largest_input: str = ""
+    inputs_in_interval: tuple[str, ...] = ()
+    cut: tuple[str, ...] = ()
     _RENAMED = RENAMED
 
     @property
@@ -173,6 +179,12 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         if self.model < LEAST_STATED_MODEL_ERROR:
             words["model-form"] = f"< {100 * LEAST_STATED_MODEL_ERROR:g} %"
         return words
+
+    @property
+    def input_in_words(self) -> str:
+        """What the part of the inputs is called: with the names of those whose ranges the interval contains."""
+        names = [name.rpartition(".")[2] for name in self.inputs_in_interval]
+        return f"input ({', '.join(names)})" if names else "input"
 
     @property
     def is_near_zero(self) -> bool:
@@ -244,7 +256,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
             note = part.note_if_unknown if math.isnan(value) else ""
             stated.append(f"{name_in_words} {words[name]}{note}")
         of_what = "errors of f itself, which is near 0: " if self.is_near_zero else ""
-        return f"{of_what}{', '.join(stated)}"
+        return "; ".join((f"{of_what}{', '.join(stated)}", *self.cut))
 
 
 @described_in_doc

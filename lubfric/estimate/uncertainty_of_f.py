@@ -14,6 +14,10 @@ AT_MOST = (
     "in the thinnest film) and {} by rolling"
 )
 
+# The same in a few words, beside the budget.
+CUT_AT_LIMIT = "the interval ends at the largest f by the limits of the shear stress"
+CUT_AT_ZERO = "the interval begins at the smallest f that resists the sliding"
+
 RESISTS_SLIDING = "the interval begins at {:.3g}, the smallest f whose sliding part resists the sliding"
 
 # What narrows the sampling error, by whether the sample has more strips.
@@ -69,7 +73,10 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
         return uncertainty
     ends = max(low, -most), min(high, most)
     return replace(
-        uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}", f"{by_rolling:.2g}"))
+        uncertainty,
+        interval=ends,
+        cut=(*uncertainty.cut, CUT_AT_LIMIT),
+        notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}", f"{by_rolling:.2g}")),
     )
 
 
@@ -87,7 +94,12 @@ def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertain
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):
         return uncertainty
-    return replace(uncertainty, interval=(least, high), notes=(*uncertainty.notes, RESISTS_SLIDING.format(least + 0.0)))
+    return replace(
+        uncertainty,
+        interval=(least, high),
+        cut=(*uncertainty.cut, CUT_AT_ZERO),
+        notes=(*uncertainty.notes, RESISTS_SLIDING.format(least + 0.0)),
+    )
 
 
 def _always_slides(scene: Scene) -> bool:

@@ -19,7 +19,6 @@ from ..models.shared import (
     ExpectedEffect,
     Prepared,
     UnmodelledEffect,
-    alpha_in_words,
     at_values,
     change_in_words,
     is_note_text,
@@ -51,6 +50,12 @@ OF_OUTPUT = {
     "min_film": "after",
 }
 
+# Which force f is, where a reader may ask for its sign.
+SIGN_OF_F = (
+    "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 ([surface], U (1 - "
+    "S/2)), over the load: positive where it resists the sliding, at either sign of the slide-roll ratio S. The rolling part raises f "
+    "at positive S, and lowers it, even below 0, at negative S."
+)
 # What a smallest film of `FLOOR` is.
 GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
 # Relative rounding error of that gap as a mean over strips. A choice: any number between rounding and a nanometre does.
@@ -225,7 +230,9 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
-    sentences += filter(None, [alpha_in_words(point.unmodelled_effects)])
+    sentences.append(_inputs_in_interval(point))
+    if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
+        sentences.append(SIGN_OF_F)
     if point.decision.basis:
         sentences.append(f"This point is by the {point.decision.basis}.")
         sentences += _change_of_model(curve)
@@ -255,6 +262,21 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
         ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
         sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
+
+
+def _inputs_in_interval(point: FrictionResult) -> str:
+    """Return in a sentence which inputs the interval of f of a ``point`` contains, and what is taken of all others."""
+    known = point.uncertainty
+    if not math.isfinite(known.sampling):
+        return ""
+    names = [*known.inputs_in_interval, *([known.missing_input] if known.not_given else [])]
+    labels = dict.fromkeys(names_of_inputs([name]) for name in names)
+    if not labels:
+        return "The interval contains no error of the inputs: all of them count as exact."
+    *first, last = labels
+    words = " and ".join(filter(None, (", ".join(first), last)))
+    ranges = "ranges" if first else "range"
+    return f"The interval contains the {ranges} of {words}. All other inputs count as exact."
 
 
 def _change_of_model(curve: CurveResult) -> list[str]:
@@ -373,10 +395,16 @@ def budget_labels(points: Sequence[FrictionResult], parts: dict[str, str] = BUDG
 
 
 def _budget(
-    values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str], labels: dict[str, str]
+    values: dict[str, float],
+    words: dict[str, str],
+    subject: str,
+    notes: Iterable[str],
+    labels: dict[str, str],
+    *,
+    is_cut: bool = False,
 ) -> str:
     """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
-    to f; ``words``: the parts as text; ``labels``: what each is called."""
+    to f; ``words``: the parts as text; ``labels``: what each is called; ``is_cut``: whether ``notes`` have a limit of the interval."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
     shown = {name: label for name, label in labels.items() if name in values}
     rows = "".join(
@@ -393,6 +421,8 @@ def _budget(
         combined = "the interval of f combines those that are known"
     if unknown - {"model-form"}:
         combined = "one of them is not known, so that f has no interval"
+    if is_cut:
+        combined += ", within the limits stated below"
     return (
         f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; {combined}.</p>"
         f'<div class="budget">{rows}</div>{lines}'
@@ -403,7 +433,7 @@ def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
     labels = budget_labels([point], BUDGET_ON_LONG_CELLS if point.decision.counts_cells_as_model_error else BUDGET)
     notes = (known.largest_part, *known.notes)
-    return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels)
+    return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels, is_cut=bool(known.cut))
 
 
 def _operating_table(curve: CurveResult) -> str:
@@ -642,7 +672,7 @@ def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
     negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0) & in_motion(result.columns)))
     if negative:
         notes.append(
-            f"f is the force on the upper surface along its sliding, over the load. It is negative at "
+            f"f is the force on surface 2 against its sliding, over the load. It is negative at "
             f"{counted(negative, 'outputs')}, where the rolling resistance of that surface is above the friction of "
             "sliding; the power loss counts both surfaces."
         )

@@ -108,7 +108,7 @@ QUOTED = re.compile(r"f = ([\d.]+) \(([\d.]+) to ([\d.]+) at 95 %\)")
 
 
 def test_the_numbers_of_the_first_page_are_those_of_today(tmp_path):
-    """The quick answer of job 1, which the page quotes, is solved; the deterministic one, of a minute, is compared with
+    """The quick model of job 1, which the page quotes, is solved; the deterministic one, of a minute, is compared with
     it, and solved by `test_lubfric_command_lines_run`."""
     page = ROOT / "docs" / "start.md"
     text = page.read_text(encoding="utf-8")

@@ -187,6 +187,7 @@ def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monk
     for note in re.findall(r"note: (between .*? Solve more ratios between them, such as [0-9., ]+\d)", error):
         assert f"<li>B{note[1:]}.</li>" in page  # the ranges in which f is not known
     assert ("note: between" in error) == (min(x) > 0)
+    assert "f is the force on surface 2 ([counterface]," in page and "contains no error of the inputs" in page
     wrong = ["plot", folder, "--measured", str(tmp_path / "m.csv"), "--speed", "SRR [%]", "--coefficient", "mu"]
     assert main(wrong) == 2
     assert "--speed is not for a traction curve; give --ratio" in " ".join(capsys.readouterr().err.split())

@@ -13,7 +13,7 @@ from small_study import SCENE as SMALL_SCENE
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, main
-from lubfric.output.report import _inputs as input_tables
+from lubfric.output.report import inputs_as_given as input_tables
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 
 HEAVY = lubfric.load_scene("paper").with_(
@@ -319,13 +319,13 @@ def test_info_of_a_model_that_takes_too_long_says_what_answers():
         lubricant={"eyring_stress": 5e6},
     )
     text = describe_scene(moving)
-    assert "on its usual cells the deterministic model would take too long" in text
+    assert "on its own cells the deterministic model would take too long" in text
     result = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
     assert result.model > 0.05 and np.isfinite(result.interval).all()
 
 
 def test_info_states_the_limits_of_the_model_that_auto_is_expected_to_take(monkeypatch):
-    """Where the deterministic model would take too long, they are those of the quick answer."""
+    """Where the deterministic model would take too long, they are those of the quick model."""
     monkeypatch.setattr("lubfric.models.deterministic.estimated_work.MOST_WORK_OF_POINT", 1e-3)
     light = lubfric.load_scene("paper").with_(
         bodies={"load": 2.0}, motion={"slide_roll_ratio": 0.1, "speeds": [0.03]}, numerics={"model": "quick"}
@@ -334,7 +334,7 @@ def test_info_states_the_limits_of_the_model_that_auto_is_expected_to_take(monke
     for name in ("quick", "auto"):
         text = describe_scene(light.with_(numerics={"model": name}))
         stated[name] = text.partition("  validity\n")[2].partition("\n  estimate")[0]
-    assert stated["auto"] == stated["quick"] and "The quick answer is not calibrated" in stated["auto"]
+    assert stated["auto"] == stated["quick"] and "The quick model is not calibrated" in stated["auto"]
 
 
 @pytest.mark.parametrize(
@@ -348,7 +348,7 @@ def test_info_describes_what_answers_for_a_named_quick_model_without_an_answer(s
     """The model that the result names, and no strips on long cells."""
     scene = lubfric.load_scene("paper").with_(numerics={"model": "quick"}, **sections)
     (line, *_) = describe_scene(scene).partition("  model\n")[2].splitlines()
-    assert "load-sharing model in place of the quick answer" in line and why in line and "long cells" not in line
+    assert "load-sharing model in place of the quick model" in line and why in line and "long cells" not in line
     assert lubfric.friction(scene.with_(contact={"shape": (96, 96)}), 1.0).decision.model == "paper"
 
 
@@ -546,8 +546,8 @@ def test_info_says_that_load_sharing_answers_in_place_of_the_quick_model_under_a
         lubricant={"inlet_film": 100e-9, "eyring_stress": 5e6}, numerics={"model": "quick", "sampling": "patch"}
     )
     text = describe_scene(scene, [0.03])
-    assert "here by the load-sharing model in place of strips on long cells" in text
+    assert "load-sharing model in place of the quick model (numerics.model)" in text
     assert "calibrated for flooded contacts only" in text and "not calibrated for such contacts" not in text
     result = lubfric.friction(scene, 0.03)
-    assert "load-sharing model in place of strips on long cells" in result.decision.text
+    assert "load-sharing model in place of the quick model" in result.decision.text
     assert not any("not calibrated for such contacts" in entry.consequence for entry in result.validity)

@@ -1,4 +1,4 @@
-"""The quick answer on long cells, its calibrated error, and the limit of an oil that nobody gave."""
+"""The quick model on long cells, its calibrated error, and the limit of an oil that nobody gave."""
 
 import math
 import re
@@ -54,7 +54,7 @@ LOOSE = {"sampling_tolerance": 0.3, "tolerance": 0.05}
 LOOSE_PAPER = PAPER.with_(numerics=LOOSE)
 # Cells twice as long, of which a strip has a sixth: where the roughness is not the matter.
 SMALL = {"shape": (48, 32), "spacing": 1.8e-6}
-BASIS = "deterministic model on long cells, calibrated"
+BASIS = "quick model (the deterministic model on long cells, calibrated"
 
 
 @lru_cache
@@ -165,7 +165,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["quick"].boundary_force + results["quick"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["quick"].coefficient, rel=1e-12)
     assert results["quick"].decision.model == "quick"
-    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases"
+    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases)"
     assert results["quick"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
@@ -180,10 +180,10 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     file.write_text(scene.to_toml())
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
-    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases"
+    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases)"
     assert page.index("f = ") < page.index(f"This point is by the {basis}.") < page.index("Uncertainty budget")
     assert "numerical (solvers)" in page and "model-form (equations, long cells)" in page
-    assert "error of the long cells is in the model-form error" in page.lower()
+    assert "is in the model-form error, not in the numerical one" in page.lower()
     titles: list[str] = []
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")
@@ -535,7 +535,7 @@ def test_an_oil_that_no_solved_case_has_widens_the_bounds():
 
 
 def test_a_starved_answer_takes_the_strips_that_its_tolerance_asks_for():
-    """The quick answer to moving roughness under a starved inlet is that of load sharing, on as many strips."""
+    """The quick model to moving roughness under a starved inlet is that of load sharing, on as many strips."""
     scene = PAPER.with_(
         lubricant={"inlet_film": 1.8e-7},
         motion={"slide_roll_ratio": 0.2},

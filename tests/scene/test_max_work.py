@@ -114,7 +114,7 @@ def test_parts_on_processes_count_their_work_as_if_done_in_order():
 
 
 def test_what_answers_after_a_model_gave_up_has_a_limit_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A soft seal in water: neither the deterministic model nor the quick answer is solved within the limit. The quick answer,
+    """A soft seal in water: neither the deterministic model nor the quick model is solved within the limit. The quick model,
     which solves its strips when it is asked for them, took 130 s more than the limit."""
     monkeypatch.setattr("lubfric.estimate.choice.LEAST_WORK_OF_CHEAPEST", 1.0)
     seal = PAPER.with_(

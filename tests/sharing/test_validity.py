@@ -296,6 +296,20 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""
 
 
+def test_the_first_line_says_which_inputs_the_interval_contains_and_that_an_estimate_is_not_among_them():
+    """A coefficient that is given is no estimate."""
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "eyring_stress": [4e6, 6e6]}
+    scene = PAPER.with_(lubricant=oil, numerics={"model": "paper", "sampling": "strips", "sampling_tolerance": 0.2})
+    texts = []
+    for alpha in (None, 2e-8):
+        point = lubfric.friction(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), 0.5)
+        texts.append((point.uncertainty.short(point.coefficient), point.not_in_interval))
+    (estimated, given) = texts
+    assert "the interval is without the range of the pressure-viscosity coefficient, which is estimated" in estimated[1]
+    assert given[1] == ""
+    assert "input (eyring_stress) " in estimated[0] and "input (eyring_stress) " in given[0]
+
+
 def test_a_warning_of_slow_surfaces_says_why_other_slow_points_have_none():
     """It depends on the Péclet number and on how much heat changes f: the slowest points may have too little of it."""
     scene = lubfric.load_scene("paper")

@@ -12,7 +12,7 @@ LU_FACTORISATION = 1.35e-7
 GMRES_ITERATION = 1.9e-7
 
 # Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"
-# leaves a point whose first strip takes more to the quick answer (docs/models.md).
+# leaves a point whose first strip takes more to the quick model (docs/models.md).
 MOST_WORK_OF_POINT = 120.0
 
 

@@ -88,14 +88,14 @@ class DeterministicModel(Model):
         elsewhere = (
             ""
             if is_everywhere
-            else f"; elsewhere the load-sharing model, and the quick answer where {too_hot_in_words()}"
+            else f"; elsewhere the load-sharing model, and the quick model where {too_hot_in_words()}"
         )
         if has_moving_roughness(scene):
             return f"deterministic model with moving roughness {where}, {target}{elsewhere}"
         return f"load-sharing model, corrected by the deterministic model on some strips, {where}, {target}{elsewhere}"
 
     def limit_of_work_in_auto(self) -> str:
-        return f"above {MOST_WORK_OF_POINT:g} s of counted work, the quick answer replaces it"
+        return f"above {MOST_WORK_OF_POINT:g} s of counted work, the quick model replaces it"
 
     def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
         check_resolved_gap(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)

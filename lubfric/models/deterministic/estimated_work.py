@@ -541,7 +541,7 @@ def why_too_many_cells(prepared: Prepared, speed: float) -> str:
 
 
 def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:
-    """Return why "auto" leaves moving roughness to the quick answer; "" if it does not."""
+    """Return why "auto" leaves moving roughness to the quick model; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
     work = (

@@ -1,4 +1,4 @@
-"""The quick answer: a few strips by the deterministic model on long cells, with the error that solved cases give them.
+"""The quick model: a few strips by the deterministic model on long cells, with the error that solved cases give them.
 
 - `long_cells`: the cells, a strip on them, and its features, on which its error depends.
 - `calibrated_error`: the bias and the 95 % bounds of f by these features; calibration.toml has their numbers.

@@ -19,7 +19,7 @@ from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
 from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
 
-OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
+OUTSIDE = "the quick model is not calibrated for such contacts; its model-form error is increased, at most three times"
 
 # The lambda ratio by which contacts are compared with those of the calibration.
 RATIO_IN_WORDS = "lambda ratio by closed forms"

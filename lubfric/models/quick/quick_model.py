@@ -1,4 +1,4 @@
-"""The quick answer as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
+"""The quick model as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
 the error that solved cases give them.
 
 It answers for ``numerics.model = "quick"``. The joined strips of the model "paper" answer in its place, with the friction
@@ -60,15 +60,15 @@ USUAL_STRIPS = 1.5
 # `SAMPLING_OVER_BOUNDS`.
 EXPECTED_TARGET = 0.05
 
-BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"
+BY_LOAD_SHARING = "load-sharing model in place of the quick model"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
-NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick answer is calibrated for flooded contacts only"
+NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick model is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
     "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller. The "
     "sampling error is that of asperities which this part of the surface has not: f of a smooth film depends on nothing else of it"
 )
 STRIPS_NOT_SOLVED = (
-    "friction by Eq. (9), with the error of the load-sharing model: the strips on long cells were not solved ({})"
+    "friction by Eq. (9), with the error of the load-sharing model: the strips of the quick model were not solved ({})"
 )
 
 
@@ -254,18 +254,21 @@ class QuickModel(Model):
 
     def described(self, scene: Scene) -> str:
         if why := _why_not_calibrated(scene):
-            return f"quick answer (numerics.model), here by the {BY_LOAD_SHARING}; {why}"
-        in_place = "load-sharing model in place of the quick answer (numerics.model)"
+            return f"{BY_LOAD_SHARING} (numerics.model); {why}"
+        in_place = f"{BY_LOAD_SHARING} (numerics.model)"
         if why := why_gap_not_resolved(scene):
             return f"{in_place}: {why}; its model-form error is not known and not in the interval"
         if not moving_bodies(scene):
             return f"{in_place}: the surfaces are smooth"
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
-        return f"quick answer (numerics.model): the deterministic model on {strips} with long cells, and a calibrated error"
+        return (
+            f"quick model (numerics.model): the deterministic model on {strips} with cells longer than its own (long cells), and an error "
+            "calibrated on solved cases"
+        )
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         return (
-            "quick answer (deterministic model on long cells, calibrated); on its usual cells the deterministic model would take "
+            "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its own cells the deterministic model would take "
             "too long"
         )
 

@@ -1,4 +1,4 @@
-"""The strips of the quick answer: solved on long cells, their f without its bias, and its error."""
+"""The strips of the quick model: solved on long cells, their f without its bias, and its error."""
 
 from __future__ import annotations
 
@@ -75,8 +75,8 @@ LEAST_TOLERANCE = 0.1
 LEAST_CONTRAST = 0.05
 
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
-CELLS_IN_MODEL_ERROR = "the error of the long cells is in the model-form error, not in the numerical one"
-BY_CELLS = "the error of long cells, calibrated on {} contacts"
+CELLS_IN_MODEL_ERROR = "the error of the long cells (cells longer than those of the deterministic model) is in the model-form error, not in the numerical one"
+BY_CELLS = "the long cells of the quick model, whose error is calibrated on {} contacts"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -260,7 +260,8 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         recommendation=REDUCED_BY_DETERMINISTIC,
     )
     parts = (by_cells, *answer.parts_of_model)
-    basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
+    cases = on_long_cells.error_model.cases
+    basis = f"quick model (the deterministic model on long cells, calibrated on {cases} solved cases)"
     return replace(
         answer,
         model_error=sides_of_parts(parts).capped(),

@@ -104,6 +104,7 @@ from .unmodelled import (
     GAP_IN_CONTACT,
     ExpectedEffect,
     UnmodelledEffect,
+    alpha_beside_interval,
     alpha_in_words,
     change_in_words,
     effect_in_words,

@@ -105,23 +105,43 @@ def unmodelled_effects(
 def alpha_in_words(effects: Sequence[UnmodelledEffect], of_f: str = "f") -> str:
     """Return in a sentence how the lowest and the highest pressure-viscosity coefficient of measured oils change ``of_f``, by
     the ``effects`` that are not modelled; "" where the coefficient is given, or both change f by less than the tolerance."""
-    changes = {
-        end: change
-        for end in ENDS_OF_ALPHA
-        for what, change, advice in effects
-        if advice == GIVE_ALPHA and f"the {end} of" in what and math.isfinite(change)
-    }
+    changes = _changes_by_alpha(effects)
     if not changes:
         return ""
-    (low, high) = (
-        change_in_words(changes[end]) if end in changes else "less than numerics.tolerance" for end in ENDS_OF_ALPHA
-    )
+    (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
     senses = {math.copysign(1.0, change) for change in changes.values()}
     both = f": both {'raise' if max(senses) > 0 else 'lower'} it" if len(changes) == 2 and len(senses) == 1 else ""
     return (
         "The pressure-viscosity coefficient is an estimate, and the interval has no error of it: by closed forms the lowest of "
         f"measured oils changes {of_f} by {low}, the highest by {high}{both}."
     )
+
+
+def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
+    """Return the same as `alpha_in_words` in a few words beside the interval of f."""
+    changes = _changes_by_alpha(effects)
+    if not changes:
+        return ""
+    (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
+    return (
+        "the interval is without the range of the pressure-viscosity coefficient, which is estimated (lowest of measured oils: f "
+        f"{low}, highest: {high})"
+    )
+
+
+def _changes_by_alpha(effects: Sequence[UnmodelledEffect]) -> dict[str, float]:
+    """Return the changes of f at those of `ENDS_OF_ALPHA` that are among the ``effects``."""
+    return {
+        end: change
+        for end in ENDS_OF_ALPHA
+        for what, change, advice in effects
+        if advice == GIVE_ALPHA and f"the {end} of" in what and math.isfinite(change)
+    }
+
+
+def _change_at_end_of_alpha(changes: dict[str, float], end: str) -> str:
+    """Return the change of f at one of `ENDS_OF_ALPHA` as text."""
+    return change_in_words(changes[end]) if end in changes else "less than numerics.tolerance"
 
 
 def expected_effects(

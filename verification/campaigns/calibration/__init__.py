@@ -1,4 +1,4 @@
-"""``python -m verification calibration``: the error of the quick answer on kinds of contacts that the fit
+"""``python -m verification calibration``: the error of the quick model on kinds of contacts that the fit
 excluded.
 
 Random contacts are solved by load sharing, and by the deterministic model on long and on short cells. ``python -m verification.campaigns.calibration

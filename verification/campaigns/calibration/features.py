@@ -1,4 +1,4 @@
-"""What the quick answer knows of a case: its map by the deterministic model on long cells."""
+"""What the quick model knows of a case: its map by the deterministic model on long cells."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""The error model of the quick answer, fitted to the tables: calibration.toml of lubfric."""
+"""The error model of the quick model, fitted to the tables: calibration.toml of lubfric."""
 
 import math
 import multiprocessing

@@ -52,7 +52,7 @@ def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
         for part in parts
     ]
     columns = ("kind left out", "cases", "within the bounds", "half-width, median")
-    yield Table(f"calibration-{motion}", f"The quick answer, {motion}: kinds left out in turn", columns, rows)
+    yield Table(f"calibration-{motion}", f"The quick model, {motion}: kinds left out in turn", columns, rows)
     yield drawn(motion, solved, plain, errors)
 
 
@@ -85,7 +85,7 @@ def summary(level: str, run: Run = Run()) -> Iterator[Item]:
         *("roughness", "cases", "rms error, Eq. (9)", "rms error", "median error"),
         *("median half-width", "inside (by kind)", "CPU s, median (9 of 10)"),
     )
-    yield Table("calibration", "The quick answer: its error of ln f, and kinds left out", columns, rows)
+    yield Table("calibration", "The quick model: its error of ln f, and kinds left out", columns, rows)
 
 
 def _seconds(solved: list[Solved]) -> str:
@@ -117,7 +117,7 @@ def _rms(values: np.ndarray) -> float:
 
 
 def drawn(motion: str, solved: list[Solved], plain: np.ndarray, errors: np.ndarray) -> Figure:
-    """Return the errors of load sharing and of the quick answer over the lambda ratio."""
+    """Return the errors of load sharing and of the quick model over the lambda ratio."""
     canvas, grid = plotting.axes(1, 2, 8.5, 3.6, sharey=True)
     ratios = [float(case.row["ratio"]) for case in solved]
     for ax, values, title in zip(grid, (plain, errors), ("load sharing, Eq. (9)", "long cells, calibrated")):

@@ -1,5 +1,5 @@
 """The chart of the models: error of f against time on four kinds of surface, for load sharing by Eqs. (8) and (9) and
-for the quick answer, for the deterministic model on long cells, and for the default, which is the deterministic model on
+for the quick model, for the deterministic model on long cells, and for the default, which is the deterministic model on
 levels of cells here.
 
 An error is the root mean square over surfaces of other seeds. A map has one sample only, which the reference also uses.
@@ -17,7 +17,7 @@ SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
 SEEDS = {True: (1,), False: (1, 2)}
 WAYS: dict[str, Keywords] = {
     'load sharing ("paper")': {"model": "paper"},
-    "quick answer": {"model": "quick"},
+    "quick model": {"model": "quick"},
     "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
     "default": {},
 }

@@ -1,7 +1,7 @@
-"""The chart of the quick answer: error of f against time on the random contacts of the campaign "calibration".
+"""The chart of the quick model: error of f against time on the random contacts of the campaign "calibration".
 
 Five kinds of contact, with the roughness at rest and moving. Errors are |ln| of f over the reference, their median and the
-range of the middle half of the contacts. The quick answer is without the bias of a fit to other lays or loads. The
+range of the middle half of the contacts. The quick model is without the bias of a fit to other lays or loads. The
 deterministic model on long cells is the same without that bias, and on short ones it is the reference before the
 correction for its own cells. Times are processor seconds on one strip. All numbers are those of the campaign's tables.
 """
@@ -19,7 +19,7 @@ HEAVY = 7e8  # Pa: peak Hertz pressure from which on a contact is a heavy one
 KINDS = ("isotropic", "across", "along", "plateau", "heavy")
 MOTIONS = {"rest": "at rest", "rolling": "rolling"}
 BY_EQUATION = 'load sharing ("paper")'
-QUICK = "quick answer: long cells, calibrated"
+QUICK = "quick model: long cells, calibrated"
 LONG = "deterministic, long cells"
 SHORT = "deterministic, cells half as long"
 METHODS = (BY_EQUATION, QUICK, LONG, SHORT)

@@ -1,7 +1,7 @@
 """The chart of rolling contacts: error of f against time of one point, by version 0.2.0, by the default of today, by a
-strip of moving roughness over a whole pass, by the quick answer, and by load sharing.
+strip of moving roughness over a whole pass, by the quick model, and by load sharing.
 
-The quick answer and load sharing are solved here. The default and the whole pass are the rows of the campaign
+The quick model and load sharing are solved here. The default and the whole pass are the rows of the campaign
 ``moving_coverage``, with its reference, which has cells half as long. The answers of version 0.2.0 (commit 28b80684,
 `BEFORE`) were solved by `levels_of` of that version on the same scenes with ``numerics.model = "deterministic"``. An error
 is the root mean square over surfaces of other seeds; a time is that of one answer, without ranges of inputs but for the
@@ -23,7 +23,7 @@ from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
 BEFORE = Path(__file__).with_name("version_0_2_0.csv")
-MODELS = {"quick": "quick answer", "paper": 'load sharing ("paper")'}
+MODELS = {"quick": "quick model", "paper": 'load sharing ("paper")'}
 
 
 def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:

@@ -187,7 +187,7 @@ def bearing() -> Iterator[Item]:
 
 
 def gears() -> Iterator[Item]:
-    """The mean friction of the gear FZG C14 along its path of contact, by the quick answer, compared with two fits.
+    """The mean friction of the gear FZG C14 along its path of contact, by the quick model, compared with two fits.
 
     It is weighted with the load and the sliding speed, as the fits define it; where two pairs of teeth are in contact
     each has half the load. The error is the model-form error that the model states, and half the differences that the
