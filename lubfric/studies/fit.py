@@ -19,7 +19,7 @@ from .explain import WITHIN_WORDS, in_words
 from .fit_checks import residual_tests, root_mean_square
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance, linear_place
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
-from .fit_profile import Profile, flat_parameters, follow
+from .fit_profile import LEAST_DECREASE, Profile, flat_parameters, follow
 from .fit_result import AT_BOUND, FitResult
 from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count, with_minimum
 from .store import opened
@@ -285,7 +285,8 @@ class _Progress:
         if curves is not self.fine:
             unit = curves.lowest_over_boundary_friction(unit)
         misfit = curves.misfit(unit)
-        if misfit < self.least.get(id(curves), (np.inf, unit))[0]:
+        smaller = 1.0 - LEAST_DECREASE if curves.solves_differences else 1.0  # the fit ignores less, too
+        if misfit**2 < smaller * self.least.get(id(curves), (np.inf, unit))[0] ** 2:
             self.least[id(curves)] = (misfit, unit)
         done = sum(kind.count for kind, _ in self.curves.values())
         total = done
@@ -363,7 +364,7 @@ def _least(curves: FitCurves, begin: np.ndarray) -> tuple[np.ndarray, str, int]:
         unit = end.x if curves.is_solved(end.x) else begin
         if np.abs(end.x - unit).max() <= LAST_MOVE:
             lowest = min([unit, *curves.solved[known_before:]], key=curves.misfit)
-            if curves.misfit(lowest) ** 2 >= (1.0 - LAST_CHANGE_OF_SUM) * curves.misfit(unit) ** 2:
+            if curves.misfit(lowest) ** 2 >= (1.0 - LEAST_DECREASE) * curves.misfit(unit) ** 2:
                 return unit, CONVERGED, steps
             curves.forget_slopes()
             begin = lowest

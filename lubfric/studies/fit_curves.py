@@ -72,6 +72,7 @@ class FitCurves:
         self.tolerance = scene.numerics.tolerance
         self.on_curve: Callable[[], None] = lambda: None
         self.linear_place = linear_place(scene, parameters)
+        self.solves_differences = False  # whether a curve is one of the differences of the slopes
         self.expected = 0  # curves that will be solved, about, with those that are
         self._executor = executor
         self._folder = folder
@@ -199,6 +200,7 @@ class FitCurves:
         """Return df/d(unit), (n, p): by f_b at the balances of the curve, by the others from differences over
         `PARAMETER_STEP`. Differences at most that far away are used unchanged."""
         if np.abs(unit - self._slopes_at).max() > PARAMETER_STEP:
+            self.solves_differences = True
             columns = []
             for i in range(unit.size):
                 moved = unit.copy()
@@ -206,6 +208,7 @@ class FitCurves:
                 columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
             self._slopes_at = unit.copy()
             self._slopes = np.stack(columns, axis=1)
+            self.solves_differences = False
         place = self.linear_place
         known = self._known_balance(unit)
         if place is None or known is None or self._boundary_friction(known) == 0.0:

@@ -501,6 +501,7 @@ def test_the_time_left_of_a_fit_corrects_the_estimates_by_the_clock(monkeypatch)
     clock = [100.0]
     monkeypatch.setattr(fit_module.time, "perf_counter", lambda: clock[0])
     facts = {"count": 0, "spent": 0.0, "changed": 1, "solved": [np.array([0.5])], "parameters": {}}
+    facts |= {"solves_differences": False}
     calls = {"misfit": lambda _: 0.1, "lowest_over_boundary_friction": lambda unit: unit}
     (coarse, fine) = [SimpleNamespace(**facts, **calls) for _ in "12"]
     estimates = {id(coarse): 2.0, id(fine): 5.0}
