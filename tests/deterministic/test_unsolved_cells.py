@@ -11,14 +11,14 @@ SCENE = lubfric.load_scene("paper").with_(
 SPEED = 0.01
 
 
+def fails(*_, **__):
+    raise lubfric.ConvergenceError(
+        "no film", lubfric.errors.Report("a piece", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
+    )
+
+
 def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
     solved = lubfric.friction(SCENE, SPEED)
-
-    def fails(*_, **__):
-        raise lubfric.ConvergenceError(
-            "no film", lubfric.errors.Report("a piece", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
-        )
-
     monkeypatch.setattr(shorter_cells, "_refined", fails)
     unsolved = lubfric.friction(SCENE, SPEED)
     assert unsolved.decision.model == solved.decision.model == "deterministic"
@@ -41,6 +41,8 @@ def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch):
     assert "the most that are solved" not in solved.uncertainty.text
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
     assert "a narrow patch" in violation.recommendation
+    monkeypatch.setattr(shorter_cells, "_refined", fails)
+    assert lubfric.friction(SCENE, SPEED).uncertainty.numerical == limited.uncertainty.numerical
 
 
 def test_strips_of_too_many_cells_leave_the_answer_to_load_sharing(monkeypatch):
@@ -80,14 +82,12 @@ def test_a_patch_keeps_its_shorter_cells_where_still_shorter_ones_do_not_converg
     solved = lubfric.friction(PATCH, SPEED)
     solve = shorter_cells.solve_strip
 
-    def fails(*arguments, map_coarsening, **keywords):
+    def solve_long_cells(*arguments, map_coarsening, **keywords):
         if map_coarsening == (1, 1):
-            raise lubfric.ConvergenceError(
-                "no film", lubfric.errors.Report("a patch", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
-            )
+            fails()
         return solve(*arguments, map_coarsening=map_coarsening, **keywords)
 
-    monkeypatch.setattr(shorter_cells, "solve_strip", fails)
+    monkeypatch.setattr(shorter_cells, "solve_strip", solve_long_cells)
     unsolved = lubfric.friction(PATCH, SPEED)
     assert unsolved.details["deterministic"].pressure.shape == (62, 32)
     assert abs(unsolved.coefficient / solved.coefficient - 1) < unsolved.uncertainty.numerical

@@ -68,7 +68,7 @@ LONGEST_WORK = 3600.0
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
-    "cells; a larger numerics.max_work reduces it"
+    "cells; a larger numerics.max_work reduces it, where that ended the solve"
 )
 SMALLER_PATCH = "a smaller patch (contact.shape)"
 PATCH_IN_PLACE = "a narrow patch in place of strips (numerics.sampling = 'patch')"

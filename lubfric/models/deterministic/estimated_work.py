@@ -45,14 +45,17 @@ LAST_STEPS = 10
 
 # Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz half-width,
 # where it is largest; the exponents of the cell over these; the logarithm of the film of the smooth contact over Sq at which it is
-# largest, and its fall with the square of the distance from there; the standard deviation of its logarithm. Fitted to 107 changes
-# of 54 random patches of `python -m verification.campaigns.estimates`.
+# largest, and its fall with the square of the distance from there; the standard deviation of its logarithm. Fitted to 212 changes
+# of random patches of `python -m verification.campaigns.estimates`.
 CHANGE_OF_PATCH = 0.33
 CHANGE_BY_LENGTH = 0.67
 CHANGE_BY_HALF_WIDTH = 0.39
 LARGEST_CHANGE = -0.42
 CHANGE_BY_FILM = 0.53
 CHANGE_SPREAD = 1.4
+
+# Factor on that change where the heights are not smooth over a cell [-]: on those of the patches whose autocorrelation is exponential.
+CHANGE_IF_NOT_SMOOTH = 1.5
 
 # Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two. A choice
 # between these.
@@ -265,7 +268,7 @@ def _work_at_rest(
     steps = expected_steps(scene, sq, speed)
     cells = _cells_of_strip(scene, sample, sq=sq, speed=speed)
     if sample.refines_in_place:
-        return _work_of_patch(scene, sample, sq=sq, speed=speed, ends=ends)
+        return _work_of_patch(scene, sample, sq=sq, speed=speed, ends=ends, is_smooth=is_smooth)
     lengths = sample.correlation_lengths[1] / sample.strip_length
     if lengths * LENGTH_OF_SHORT_STRIP > 1:
         return _work_of_short_strip(
@@ -292,9 +295,12 @@ def _work_at_rest(
     return strips + pieces + again
 
 
-def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, ends: int) -> float:
+def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, ends: int, is_smooth: bool) -> float:
     """Return the counted work [s] of a patch at rest on shorter and shorter cells (`shortened`), and of so many ``ends`` of input
-    ranges on the last ones: the geometric mean over where the estimated error may end that (`_expected_change_of_patch`)."""
+    ranges on the last ones: the geometric mean over where the estimated error may end that (`_expected_change_of_patch`).
+
+    ``is_smooth``: whether the heights are smooth over a cell.
+    """
     numerics = scene.numerics
     (dx, dy) = sample.cells.native_spacing
     columns = sum(reach(scene.line_contact(abs(speed)), sq)) / dx
@@ -316,6 +322,7 @@ def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, end
         part = 1.0
         if numerics.grid != "given":
             change = _expected_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
+            change *= 1.0 if is_smooth else CHANGE_IF_NOT_SMOOTH
             part = 0.5 * math.erfc(
                 math.log(numerics.tolerance / (ERROR_OVER_CHANGE * change)) / (math.sqrt(2.0) * CHANGE_SPREAD)
             )
@@ -471,10 +478,13 @@ def work_on_long_cells(
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
-    steps = expected_steps(scene, sq, speed)
+    is_patch = sample.refines_in_place
+    steps = (
+        expected_steps_of_patch(scene, sq, speed, length / (fx * dx)) if is_patch else expected_steps(scene, sq, speed)
+    )
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
     again = (OF_SLOPE + _with_middle(ends)) * steps.work(cells, steps.again)
-    return AT_REST_ON_LONG_CELLS * (strips + again)
+    return AT_REST_ON_LONG_CELLS * (strips + again) + (SECONDS_OF_PATCH if is_patch else 0.0)
 
 
 def moving_point_work(
