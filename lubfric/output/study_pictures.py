@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import studies
 from .._base import figures
+from ..quantities import COLUMNS
 from .picture_options import PictureOptions
 
 if TYPE_CHECKING:
@@ -36,10 +37,6 @@ MANY_OVER_ONE = 3  # points over each value, on average, from which on they are 
 
 # Panels of the picture of a study, at most: one for each thing that is varied. A choice, by looking at the figures.
 MOST_PANELS = 8
-
-# Things that are varied in all combinations, at most, of which a picture shows lines: one along the axis, one by colours,
-# one by markers. By definition.
-MOST_OF_LINES = 3
 
 
 @figures.styled
@@ -78,7 +75,7 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
 
 def _key_of_axis(result: studies.StudyResult) -> str:
     """Return the key along the axis of a picture of lines: the speed, or of what is varied in all combinations the number with
-    the most values, else the text with the most; "" where no lines show the study."""
+    the most values, else the text with the most; "" where no lines tell apart what is varied."""
     if result.paired:
         return ""
     lengths = dict(zip(result.dims, result.status.shape))
@@ -86,9 +83,11 @@ def _key_of_axis(result: studies.StudyResult) -> str:
     if result.chosen or "speed" in longer:
         return "speed"
     dims = [result.coords[key][0] for key in longer]
-    if not longer or len(dims) > MOST_OF_LINES or len(set(dims)) < len(dims):
+    if not longer or len(set(dims)) < len(dims):
         return ""
-    return max(longer, key=lambda key: (_is_number(longer[key]), longer[key].size))
+    over = max(longer, key=lambda key: (_is_number(longer[key]), key in COLUMNS, longer[key].size))
+    sizes = sorted(values.size for key, values in longer.items() if key != over)
+    return over if int(np.prod(sizes[:-1], dtype=int)) <= len(studies.STYLES) else ""
 
 
 def _is_number(values: np.ndarray) -> bool:

@@ -19,7 +19,7 @@ from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
-from .study_lines import lines_over, name_of, name_places, tick_values
+from .study_lines import STYLES, lines_over, name_places, tick_values
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     check_tools,
@@ -27,6 +27,7 @@ from .tables import (
     friction_over_speed,
     interval_band,
     label,
+    name_of,
     place_in_words,
     plot_map,
     plot_points,

@@ -13,7 +13,7 @@ from ..quantities import COLUMNS, axis_label
 from .operating_points import INTERVAL_COLUMNS
 from .plan import StudyPlan
 from .points import SPEED
-from .tables import BAND, LINE_POINTS, label, plot_points, shown_numbers
+from .tables import BAND, LINE_POINTS, label, name_of, plot_points, shown_numbers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,8 +30,8 @@ NAMED_SHADES = 6
 # Part of the colours that are dark enough to be seen on white [-]: without yellow. A choice, by looking at the figures.
 DARK_SHADES = 0.85
 
-# Markers and dashes of the values of a second thing that is varied, one pair for each; more values have none. A choice, by
-# looking at the figures.
+# Markers and dashes of the combinations of what else is varied, one pair for each; more have none. A choice, by looking at
+# the figures.
 STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
 
 # Lines whose intervals are drawn as bands, at most. A choice, by looking at the figures: more bands hide each other.
@@ -131,18 +131,19 @@ class LineStyles:
 
 def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int) -> LineStyles:
     """Return how the lines at ``indices`` are told apart, which run along the axis number ``along``: by colours where one
-    thing is varied; by colours and, if these are few, markers and dashes, where two are."""
+    thing is varied; by colours of one and, if these are few, markers and dashes of the combinations of the others."""
     sizes = np.array([max(index[axis] for index in indices) + 1 for axis in range(len(plan.dims))])
     varied = [axis for axis in range(len(plan.dims)) if axis != along and sizes[axis] > 1]
     if not varied:
         return LineStyles(
             lines=[{"color": figures.BLUE, "lw": 1.2, "label": COLUMNS["coefficient"].label}], are_few=True
         )
-    of_styles = [axis for axis in varied[1:] if sizes[axis] <= len(STYLES)] if len(varied) == 2 else []
-    first = varied[0]
+    colour_axes = [axis for axis in varied if _combinations(sizes, varied, axis) <= len(STYLES)]
+    first = colour_axes[0] if colour_axes else varied[0]
+    others = [axis for axis in varied if axis != first] if colour_axes else []
     number = _first_number(plan, first)
     most = NAMED_SHADES if number is not None and len(varied) == 1 else NAMED
-    few = len(indices) <= most and not of_styles
+    few = len(indices) <= most and not others
     places = np.array([index[first] for index in indices])
     handles: list[dict[str, Any]] = []
     bar = None
@@ -151,7 +152,7 @@ def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int
     elif number is None or np.unique(plan.coords[number][1]).size <= NAMED_SHADES:
         shades = places / (sizes[first] - 1)
         for place, colour in enumerate(_colours(np.arange(sizes[first]) / (sizes[first] - 1))):
-            handles.append({"color": colour, "lw": 2.0, "label": _label_along(plan, first, place)})
+            handles.append({"color": colour, "lw": 2.0, "label": _label_along(plan, {first: place})})
     else:
         values = plan.coords[number][1]
         bar = (number, float(values.min()), float(values.max()))
@@ -160,13 +161,12 @@ def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int
     for index, line in zip(indices, lines):
         if few:
             line["label"] = figures.plain_words(label(plan, _without(index, along)))
-        for axis in of_styles:
-            line |= dict(zip(("marker", "ls"), STYLES[index[axis]])) | {"ms": 3.5}
-    for axis in of_styles:
-        for place in range(sizes[axis]):
-            (marker, dashes) = STYLES[place]
-            of_style = {"color": figures.GREY, "lw": 1.0, "ls": dashes, "marker": marker, "ms": 3.5}
-            handles.append(of_style | {"label": _label_along(plan, axis, place)})
+        if others:
+            place = int(np.ravel_multi_index([index[axis] for axis in others], sizes[others]))
+            line |= dict(zip(("marker", "ls"), STYLES[place])) | {"ms": 3.5}
+    for places_of_others, (marker, dashes) in zip(np.ndindex(*sizes[others]) if others else (), STYLES):
+        of_style = {"color": figures.GREY, "lw": 1.0, "ls": dashes, "marker": marker, "ms": 3.5}
+        handles.append(of_style | {"label": _label_along(plan, dict(zip(others, places_of_others)))})
     return LineStyles(lines=lines, handles=handles, are_few=few, bar=bar)
 
 
@@ -183,10 +183,16 @@ def _first_number(plan: StudyPlan, axis: int) -> str | None:
     return None
 
 
-def _label_along(plan: StudyPlan, axis: int, place: int) -> str:
-    """Return what is varied at a ``place`` along one ``axis``, as text."""
+def _combinations(sizes: np.ndarray, varied: Sequence[int], axis: int) -> int:
+    """Return the number of combinations of what is varied along all but one ``axis``."""
+    return int(np.prod([sizes[other] for other in varied if other != axis], dtype=int))
+
+
+def _label_along(plan: StudyPlan, places: dict[int, int]) -> str:
+    """Return what is varied at the ``places`` along some axes, as text."""
     index: list[Any] = [slice(None)] * len(plan.dims)
-    index[axis] = place
+    for axis, place in places.items():
+        index[axis] = place
     return figures.plain_words(label(plan, tuple(index)))
 
 
@@ -215,11 +221,6 @@ def _values_over(result: Any, over: str) -> tuple[np.ndarray, str]:
         return np.zeros(0), axis_label(SPEED)
     values = result.coords[over][1]
     return shown_numbers(over, values) if values.dtype.kind in "fi" else (values, name_of(over))
-
-
-def name_of(key: str) -> str:
-    """Return what the axis of a ``key`` that takes names is called."""
-    return COLUMNS[key].label if key in COLUMNS else key.rpartition(".")[2].replace("_", " ")
 
 
 def _draw_intervals(

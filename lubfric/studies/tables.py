@@ -176,12 +176,17 @@ def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
+def name_of(key: str) -> str:
+    """Return what the axis of a ``key`` without a unit is called."""
+    return COLUMNS[key].label if key in COLUMNS else key.rpartition(".")[2].replace("_", " ")
+
+
 def shown_numbers(key: str, values: np.ndarray) -> tuple[np.ndarray, str]:
     """Return the ``values`` [SI] of a ``key`` in a unit of people, and the label of their axis; a temperature in °C."""
     if key == "lubricant.temperature":
         return values - float(ZERO_CELSIUS), axis_label("lubricant.temperature_celsius")
     if key not in KEYS and key not in COLUMNS:
-        return values, axis_label(key)
+        return values, name_of(key)
     si = KEYS[key].unit if key in KEYS else COLUMNS[key].unit
     unit = unit_of_largest(np.asarray(values, dtype=float).ravel().tolist(), si)
     return np.asarray(converted(values, si, unit)), axis_label(key, unit)

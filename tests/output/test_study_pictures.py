@@ -38,6 +38,29 @@ STUDIES = {
         {"bodies.load": LOADS, "surface.sq": SQ, "lubricant.temperature": [313.0, 373.0], FOUR[-1]: [0.1, 0.12]},
         [0.1],
     ),
+    "five keys": (
+        {
+            "bodies.load": LOADS,
+            "surface.sq": SQ,
+            "lubricant.temperature": [313.0, 343.0, 373.0],
+            FOUR[-1]: [0.1, 0.12, 0.14],
+        },
+        [0.1, 0.3],
+    ),
+    "five keys of one speed": (
+        {
+            "bodies.load": LOADS,
+            "surface.sq": SQ,
+            "lubricant.temperature": [313.0, 343.0, 373.0],
+            FOUR[-1]: [0.1, 0.12, 0.14],
+        },
+        [0.1],
+    ),
+    "sections": (
+        {"surface": [{"sq": sq, "correlation_length": 8e-6, "acf": "gaussian"} for sq in SQ], "bodies.load": LOADS},
+        [0.1],
+    ),
+    "seeds": ({"surface.seed": [1, 2, 3], "bodies.load": LOADS[:2]}, [0.1]),
     "many values": (
         {"bodies.load": np.linspace(2, 6, 9).tolist(), "surface.sq": np.linspace(5e-8, 2e-7, 9).tolist()},
         [0.1],
@@ -68,6 +91,7 @@ STUDIES = {
 }
 WIDTHS = {"column": 0.085, "page": 0.17, "usual": None}
 LEAST_LETTERS = 6.0  # pt
+TEMPERATURE = {"three keys": "lubricant.temperature_celsius"}
 PRINTED = 300  # points per inch, in which letters have the widths of print
 COLUMN_HEIGHT = 7.0  # inch: a picture of this height leaves room for its caption on a page
 
@@ -161,16 +185,22 @@ def test_two_keys_are_lines_over_one_with_a_colour_for_each_value_of_the_other(t
     assert [tick.get_text() for tick in axes.get_xticklabels()] == ["2", "3", "4", "5", "6"]
 
 
-def test_three_keys_are_told_apart_by_colours_and_markers(tmp_path, drawn):
-    result = made_study(*STUDIES["three keys"])
+@pytest.mark.parametrize("name, count", [("three keys", 9), ("four keys", 12)])
+def test_keys_are_told_apart_by_colours_and_markers(tmp_path, drawn, name, count):
+    """The line of each combination is that of its numbers, and the key of lines names its temperature."""
+    result = made_study(*STUDIES[name])
     study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[0].axes
     lines = [line for line in axes.lines if len(line.get_xdata()) == len(LOADS) and line.get_marker() != "None"]
-    assert len({(to_hex(line.get_color()), line.get_marker()) for line in lines}) == len(lines) == 9
-    by_order = [line.get_ydata().tolist() for line in lines]
-    assert by_order == [result["coefficient"][:, i, j, 0].tolist() for i in range(3) for j in range(3)]
-    labels = axes.get_legend_handles_labels()[1]
-    assert {f"temperature of the oil {t} °C" for t in (40, 70, 100)} <= set(labels)
+    assert len({(to_hex(line.get_color()), line.get_marker()) for line in lines}) == len(lines) == count
+    f = result["coefficient"][..., 0]
+    assert [line.get_ydata().tolist() for line in lines] == f.reshape(len(LOADS), -1).T.tolist()
+    handles = dict(zip(*reversed(axes.get_legend_handles_labels())))
+    warmest = max(result.coords[TEMPERATURE.get(name, "lubricant.temperature")][1])
+    shown = f"temperature of the oil {warmest - (273.15 if warmest > 200 else 0):.4g} °C"
+    (of_warmest, *_) = [handle for label, handle in handles.items() if shown in label]
+    places = np.unravel_index([line.get_marker() for line in lines].index(of_warmest.get_marker()), f.shape[1:])
+    assert result.place((0, *map(int, places), 0)).count(shown) == 1
 
 
 def test_names_of_an_axis_are_those_of_the_study(tmp_path, drawn):
