@@ -518,11 +518,14 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes and math.isfinite(point[1].sampling)]
-    unknown: dict[str, list[float]] = {}
+    unknown: dict[str, list[tuple[float, tuple[str, ...]]]] = {}
     for value, known in points:
         if known.notes and not math.isfinite(known.sampling):
-            unknown.setdefault("; ".join(known.notes).removeprefix(UNKNOWN), []).append(value)
-    lines = [f"no 95 % interval of f {at_values(values, unit, plural)}: {why}" for why, values in unknown.items()]
+            unknown.setdefault(known.notes[0], []).append((value, known.notes))
+    lines = [
+        f"no 95 % interval of f {at_values([value for value, _ in same], unit, plural)}: {_common_notes(same).removeprefix(UNKNOWN)}"
+        for same in unknown.values()
+    ]
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
         place, worst = max(noted, key=lambda p: p[1].sampling)
@@ -535,6 +538,12 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):
         lines.append("accepted outside the range of the model (--accept): the marked coefficients have no meaning")
     return lines
+
+
+def _common_notes(points: list[tuple[float, tuple[str, ...]]]) -> str:
+    """Return the notes that all ``points``, pairs of a value and its notes, have; those of one point alone are in result.json."""
+    (_, first), *others = points
+    return "; ".join(note for note in first if all(note in notes for _, notes in others))
 
 
 def _raise_if_failed(curve: studies.CurveResult) -> None:

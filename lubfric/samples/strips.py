@@ -242,7 +242,13 @@ class MeasuredStrips(Sample):
         heights = joined_maps(windows, self._blend)
         rows = self._rows(heights.shape[1]) * fy
         shape = f"{self.cells.columns * fx} x {self.surface.shape[1]} cells"
-        note = f"{counted(len(windows), 'windows')} of {shape}, joined along y"
+        lengths = (1e6 * count * self.surface.spacing[1] for count in (rows, len(windows) * self.surface.shape[1]))
+        used, measured = (f"{length:.5g} µm" for length in lengths)
+        note = (
+            f"{counted(len(windows), 'windows')} of {shape}, joined along y to {used} of their {measured}: so that no edge carries load, "
+            f"each passes into the next one, and the last into the first, over {self._blend} cells; of the rest a whole multiple of "
+            f"{WINDOW_ROWS_MULTIPLE} cells of {1e6 * self.cells.spacing[1]:.3g} µm is used"
+        )
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:

@@ -193,6 +193,17 @@ def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monk
     assert "--speed is not for a traction curve; give --ratio" in " ".join(capsys.readouterr().err.split())
 
 
+def test_speeds_without_an_interval_for_one_reason_are_in_one_line(tmp_path, capsys):
+    """The range of f_b changes f differently at each speed; the reason, a patch with too few asperities, is one."""
+    scene = SCENE.replace("speeds = [0.01, 0.3]", "speeds = [0.003, 0.01, 0.03]").replace("'quick'", "'paper'")
+    scene = re.sub(r"boundary_friction_coefficient = [\d.]+", "boundary_friction_coefficient = [0.08, 0.1]", scene)
+    (tmp_path / "s.toml").write_text(scene)
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
+    error = " ".join(capsys.readouterr().err.split())
+    assert error.count("no 95 % interval of f at 3 speeds") == 1 == error.count("no 95 % interval of f at")
+    assert error.count("too few for an interval") == 1
+
+
 ODD = ["$$", r"$\unknowncmd$", r"\$ a $x_", "100 % $5", "a\nb 😀 {x} <b>&"]
 SMALL = {"shape": (96, 96), "spacing": 0.9e-6}
 COLUMNS = "--speed", "U", "--coefficient", "mu"

@@ -1,6 +1,7 @@
 """The interval of f: against other samples of the surface, how many strips it takes, and where there is none."""
 
 import math
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -121,6 +122,16 @@ def test_windows_of_a_measured_map_are_its_sample(tmp_path):
     assert "the map ends before the requested 0.3 %" in all_of_it.text
     low, high = few.interval
     assert low < lubfric.friction(PAPER.with_(surface={"acf": "gaussian", "seed": 8}), 0.01).coefficient < high
+
+
+def test_the_note_on_windows_says_how_much_of_the_map_is_used_and_why(tmp_path):
+    """The lengths are those of the joined map and of its windows, which have 400 cells along y each."""
+    surface = lubfric.prepare(on_map(tmp_path, (900, 400))).surface
+    note = next(note for note in surface.notes if "joined along y" in note)
+    (count, used, measured) = re.match(r"(\d+) windows? .* to ([\d.]+) µm of their ([\d.]+) µm", note).groups()
+    assert float(used) == pytest.approx(1e6 * surface.size[1], rel=1e-3)
+    assert float(measured) == pytest.approx(int(count) * 400 * 0.9, rel=1e-3) and float(used) < 0.99 * float(measured)
+    assert "each passes into the next one" in note
 
 
 def test_a_map_that_differs_from_place_to_place_is_less_sure(tmp_path):
