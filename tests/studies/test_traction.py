@@ -123,7 +123,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch, drawn):
         full.setattr("lubfric.output.run_curve.plot_traction", full_disk)
         assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
-    assert "has a traction curve" in capsys.readouterr().err
+    assert "is not for a traction curve; give --ratio" in capsys.readouterr().err
     (out / "traction.csv").write_text("ratio [-],speed [m/s]\n0.1,")
     assert main(["plot", str(out)]) == 2 and "traction.csv" in capsys.readouterr().err
 

@@ -297,7 +297,7 @@ def _work_at_rest(
 
 def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, ends: int, is_smooth: bool) -> float:
     """Return the counted work [s] of a patch at rest on shorter and shorter cells (`shortened`), and of so many ``ends`` of input
-    ranges on the last ones: the geometric mean over where the estimated error may end that (`_expected_change_of_patch`).
+    ranges on the last ones: the geometric mean over where the estimated error may end that (`_log_change_of_patch`).
 
     ``is_smooth``: whether the heights are smooth over a cell.
     """
@@ -306,14 +306,14 @@ def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, end
     columns = sum(reach(scene.line_contact(abs(speed)), sq)) / dx
     rows = sample.strip_length / dy
 
-    def solves_on(coarsening: tuple[float, float]) -> tuple[float, float]:
+    def solves_on(coarsening: tuple[int, int]) -> tuple[float, float]:
         along = columns / coarsening[0]
         cells = along * rows / coarsening[1]
         steps = expected_steps_of_patch(scene, sq, speed, along)
         return steps.work(cells, steps.first), steps.work(cells, steps.again)
 
     coarsening = coarsening_at_rest(scene, sample)
-    (on_longer, _) = solves_on((2.0 * coarsening[0], 2.0 * coarsening[1]))
+    (on_longer, _) = solves_on((2 * coarsening[0], 2 * coarsening[1]))
     (first, again) = solves_on(coarsening)
     work = on_longer + first + OF_SLOPE * again
     log_work = 0.0
@@ -321,11 +321,10 @@ def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, end
     while (shorter := shortened(scene, sample, coarsening)) != coarsening:
         part = 1.0
         if numerics.grid != "given":
-            change = _expected_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
-            change *= 1.0 if is_smooth else CHANGE_IF_NOT_SMOOTH
-            part = 0.5 * math.erfc(
-                math.log(numerics.tolerance / (ERROR_OVER_CHANGE * change)) / (math.sqrt(2.0) * CHANGE_SPREAD)
-            )
+            log_change = _log_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
+            log_change += 0.0 if is_smooth else math.log(CHANGE_IF_NOT_SMOOTH)
+            log_target = math.log(numerics.tolerance / ERROR_OVER_CHANGE)
+            part = 0.5 * math.erfc((log_target - log_change) / (math.sqrt(2.0) * CHANGE_SPREAD))
         log_work += left * (1.0 - part) * math.log(work + ends * again)
         left *= part
         if why_too_many(columns * rows / (shorter[0] * shorter[1])) or work > MOST_WORK_OF_POINT:
@@ -336,15 +335,17 @@ def _work_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, end
     return math.exp(log_work + left * math.log(work + ends * again))
 
 
-def _expected_change_of_patch(
+def _log_change_of_patch(
     scene: Scene, sample: Sample, *, sq: float, speed: float, coarsening: tuple[int, int]
 ) -> float:
-    """Return the change of f on cells of this length, in native ones, from cells twice as long that is expected of a patch at rest."""
+    """Return the logarithm of the change of f on cells of this length, in native ones, from cells twice as long that is expected of
+    a patch at rest."""
     cell = coarsening[0] * sample.cells.native_spacing[0]
     log_ratio = math.log(scene.line_contact(abs(speed)).moes_film / sq)
-    by_film = math.exp(-((log_ratio - LARGEST_CHANGE) ** 2) * CHANGE_BY_FILM)
-    scale = (cell / sample.correlation_lengths[0]) ** CHANGE_BY_LENGTH
-    return CHANGE_OF_PATCH * by_film * scale * (cell / scene.bodies.half_width) ** CHANGE_BY_HALF_WIDTH
+    by_film = -CHANGE_BY_FILM * (log_ratio - LARGEST_CHANGE) ** 2
+    by_length = CHANGE_BY_LENGTH * math.log(cell / sample.correlation_lengths[0])
+    by_half_width = CHANGE_BY_HALF_WIDTH * math.log(cell / scene.bodies.half_width)
+    return math.log(CHANGE_OF_PATCH) + by_film + by_length + by_half_width
 
 
 def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int) -> float:
