@@ -50,20 +50,12 @@ def test_a_thin_film_is_carried_by_asperities_and_a_thick_one_by_itself():
     assert expected_friction(rolling(slide_roll_ratio=0.0), 2e-7, SPEED).contrast == 0
 
 
-def strips(monkeypatch, spread, tolerance):
-    monkeypatch.setattr(estimated_work, "SCATTER_SPREAD", spread)
-    monkeypatch.setattr(estimated_work, "SCATTER_IN_MOTION", 2.0)
-    prepared = lubfric.prepare(rolling(sampling_tolerance=tolerance))
-    return estimated_work._expected_strips(prepared.scene, prepared.sample, sq=2e-7, speed=SPEED)
+def test_needed_strips_fall_with_the_square_of_the_tolerance():
+    def needed(tolerance):
+        prepared = lubfric.prepare(rolling(sampling_tolerance=tolerance))
+        return estimated_work._needed_strips(prepared.scene, prepared.sample, sq=2e-7, speed=SPEED)
 
-
-def test_expected_strips_are_the_geometric_mean_over_drawn_errors(monkeypatch):
-    """A quarter of them for twice the tolerance where the error is certain, and never fewer than one."""
-    certain = strips(monkeypatch, 1e-6, 1e-3)
-    assert certain > 4 and strips(monkeypatch, 1e-6, 2e-3) == pytest.approx(certain / 4, rel=1e-4)
-    assert strips(monkeypatch, 1e-6, 0.5) == pytest.approx(1.0, abs=1e-4)
-    drawn = np.log(certain) + 1.8 * np.random.default_rng(2).standard_normal(400_000)
-    assert strips(monkeypatch, 1.8, 1e-3) == pytest.approx(np.exp(np.maximum(drawn, 0.0).mean()), rel=0.02)
+    assert needed(2e-3) == pytest.approx(needed(1e-3) / 4, rel=1e-9)
 
 
 def test_a_lubricant_that_does_not_thicken_carries_as_one_that_hardly_does():

@@ -4,6 +4,8 @@ from .answer import answer_of, violations_by_correction
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
+from .expected_friction import expected_friction
+from .expected_steps_in_time import COEFFICIENTS, StepFacts
 from .flow import derivatives, mass_balance
 from .heat_of_strip import strip_heat
 from .levels import Levels, levels_of, two_levels
@@ -25,6 +27,7 @@ from .moving_strip import (
     effort_of,
     solve_moving_strip,
     strip_at_rest,
+    work_of_step_in_time,
 )
 from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing

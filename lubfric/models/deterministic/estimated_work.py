@@ -24,12 +24,19 @@ from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
+from .expected_steps_in_time import StepFacts
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach, why_too_many
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
-from .strip_on_two_grids import coarsening_at_rest, patch_coarsening_to_look_at, sample_coarsening_of, shortened
+from .strip_on_two_grids import (
+    MOVING_SAMPLE,
+    coarsening_at_rest,
+    patch_coarsening_to_look_at,
+    sample_coarsening_of,
+    shortened,
+)
 
 # Newton steps on cells half as long, which begin at the solution on longer ones [-].
 FINER_STEPS = 6
@@ -108,25 +115,16 @@ SECONDS_OF_PATCH = 0.05
 # same, most of all where the arrays are small.
 AT_REST_ON_LONG_CELLS = 0.9
 
-# Processor time of moving roughness over its counted work [-]: .44 to .56 in five jobs of
-# verification.campaigns.benchmarks.rolling_costs.
-IN_MOTION = 0.5
+# What is expected of a strip of moving roughness for its time, where the way of the moments that count follows from the strips that
+# it needs (`_needed_strips`) [-]: the strip at rest takes 2 to 9 steps in time of ten runs of ``verification.campaigns.estimates``.
+COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
 
-# The same on long cells, whose arrays are small [-]: .6 to .75 in most of 12 random points of verification.campaigns.estimates.
-ON_LONG_CELLS = 0.65
+# Processor time of moving roughness over its counted work [-]: .24 to .95, .6 in the median, of 30 runs of
+# verification.campaigns.estimates on several machines.
+IN_MOTION = 0.6
 
-# Newton steps in a step in time of moving roughness over those of the counted work [-]: the first, times the correlation length
-# along x over the Hertz half-width, the pressure-viscosity coefficient times the Hertz pressure over Λ, each to its power, and
-# the exponential of the last times the slide-roll ratio. Fitted to the 301 rolling contacts of verification.campaigns.calibration:
-# 90 % of them within a factor of 2, 98 % within 3.
-NEWTON_STEPS = 0.556
-BY_CORRELATION_LENGTH = 0.343
-BY_THICKENING = 0.304
-BY_SLIDING = 0.318
-
-# The least of the former product over Λ in those contacts [-]: below it the number of steps is that at it. Measured
-# there.
-LEAST_THICKENING = 0.56
+# The same on long cells, whose arrays are small [-]: .38 to 1.1, .8 in the median, of 26 such runs.
+ON_LONG_CELLS = 0.8
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is
 # within `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of
@@ -146,9 +144,6 @@ UNLIKE = 0.65
 # area of the correlation lengths over that of the map [-]. Fitted with its exponent to 51 contacts of
 # verification.campaigns.moving_coverage and verification.campaigns.estimates.
 SCATTER_IN_MOTION = 0.45
-
-# Standard deviation of ln of the strips that follow from it [-]: twice that of ln of the error about it, .91 in these contacts.
-SCATTER_SPREAD = 1.8
 
 # Cautious error (`StandardError.cautious`) over the error [-], with some ten degrees of freedom. It follows from that
 # method.
@@ -179,19 +174,13 @@ def estimated_work(
         return NO_WORK
     if why_too_many(_cells_of_strip(scene, sample, sq=sq, speed=speed)):
         return NO_WORK
-    sample_coarsening = sample_coarsening_of(scene, sample)
-    one_strip = (
-        moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening)
-        if has_moving_roughness(scene)
-        else 0.0
-    )
     if scene.transient is not None or why_gap_not_resolved(scene):
-        strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip) if one_strip else 0.0
+        strip_seconds = _seconds_in_motion(scene, sample, surface, speed) if has_moving_roughness(scene) else 0.0
         return WorkEstimate(strips=0, seconds=0.0, has_answer=False, strip_seconds=strip_seconds)
     if numerics.model == AUTO and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
         return NO_WORK
     if has_moving_roughness(scene):
-        return _work_in_motion(scene, sample, surface, speed, one_strip)
+        return _work_in_motion(scene, sample, surface, speed)
     scatter = 0.0
     if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
         scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
@@ -214,16 +203,16 @@ def estimated_work(
     )
 
 
-def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float, one_strip: float) -> WorkEstimate:
-    """Return the same of moving roughness; ``one_strip``: `moving_point_work` [s]."""
-    sq = surface.sq
-    strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
+def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float) -> WorkEstimate:
+    """Return the same of moving roughness."""
+    strip_seconds = _seconds_in_motion(scene, sample, surface, speed)
     numerics = scene.numerics
-    if one_strip > MOST_WORK_OF_POINT and numerics.model == AUTO:
+    if numerics.model == AUTO and _is_too_costly(scene, sample, surface, speed):
         return WorkEstimate(strips=0, seconds=0.0, has_answer=False, strip_seconds=strip_seconds)
     ended = math.inf if numerics.max_work is None else IN_MOTION * numerics.max_work
     affordable = max(1.0, IN_MOTION * MOST_WORK_OF_POINT / strip_seconds)
-    count = min(_expected_strips(scene, sample, sq=sq, speed=speed), affordable, sample.available_strips)
+    needed = _needed_strips(scene, sample, sq=surface.sq, speed=speed)
+    count = min(max(1.0, needed), affordable, sample.available_strips)
     longest = strip_seconds
     if count * HALVED_WORK <= affordable and _may_be_halved(scene, sample, surface, speed):
         longest = (1.0 + HALVED_WORK) * strip_seconds
@@ -237,24 +226,18 @@ def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float
     )
 
 
-def _expected_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
-    """Return how many strips of moving roughness of ``sq`` [m] the sampling error at ``speed`` [m/s] needs, as the geometric
-    mean over what `SCATTER_SPREAD` leaves open.
+def _needed_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return how many strips of moving roughness of ``sq`` [m] the sampling error at ``speed`` [m/s] needs, if all of a map passes; of
+    less than one, a part of it.
 
-    f scatters by the asperity load ratio s, as of single contacts, sqrt(s (1 - s)), times the `ExpectedFriction.contrast`. A strip
-    is followed until its map has passed.
+    f scatters by the asperity load ratio s, as of single contacts, sqrt(s (1 - s)), times the `ExpectedFriction.contrast`.
     """
     expected = expected_friction(scene, sq, speed)
     scatter = math.sqrt(expected.share * (1.0 - expected.share)) * expected.contrast
     (lx, ly) = sample.correlation_lengths
     passed = sample.cells.columns * sample.cells.spacing[0] + 2.0 * scene.bodies.half_width
     error = SCATTER_IN_MOTION * math.sqrt(scatter * lx * ly / (passed * sample.strip_length))
-    needed = STRIPS_SPARE[0] * (CAUTIOUS * error / scene.numerics.sampling_tolerance) ** 2
-    if needed == 0:
-        return 1.0
-    apart = math.log(needed) / SCATTER_SPREAD
-    more = math.exp(-0.5 * apart**2) / math.sqrt(2.0 * math.pi) + 0.5 * apart * (1.0 + math.erf(apart / math.sqrt(2.0)))
-    return math.exp(SCATTER_SPREAD * more)
+    return STRIPS_SPARE[0] * (CAUTIOUS * error / scene.numerics.sampling_tolerance) ** 2
 
 
 def _work_at_rest(
@@ -402,17 +385,25 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
     return next(steps for least, steps in FINER_STEPS_HEAVY if ratio >= least)
 
 
-def _seconds_in_motion(scene: Scene, sample: Sample, *, sq: float, speed: float, work: float) -> float:
-    """Return the processor time [s] of so much counted ``work`` [s] on moving roughness of ``sq`` [m] at ``speed`` [m/s]."""
-    return IN_MOTION * work * _newton_steps(scene, sample, sq=sq, speed=speed)
+def _seconds_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float) -> float:
+    """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]."""
+    needed = _needed_strips(scene, sample, sq=surface.sq, speed=speed)
+    return IN_MOTION * moving_point_work(
+        scene,
+        sample,
+        surface,
+        speed,
+        sample_coarsening=sample_coarsening_of(scene, sample),
+        course=COURSE_OF_TIME,
+        has_usual_steps=False,
+        passed=min(1.0, needed / MOVING_SAMPLE**2),
+    )
 
 
-def _newton_steps(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
-    """Return the Newton steps in a step in time of roughness of ``sq`` [m] at ``speed`` [m/s], over those of the counted work."""
-    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    thickening = max(thickened * sq / scene.line_contact(abs(speed)).moes_film, LEAST_THICKENING)
-    steps = NEWTON_STEPS * (sample.correlation_lengths[0] / scene.bodies.half_width) ** BY_CORRELATION_LENGTH
-    return float(steps * thickening**BY_THICKENING * math.exp(BY_SLIDING * abs(scene.motion.slide_roll_ratio)))
+def _is_too_costly(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:
+    """Return whether "auto" leaves moving roughness to the quick answer (`why_too_costly`)."""
+    work = moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening_of(scene, sample))
+    return work > MOST_WORK_OF_POINT
 
 
 def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:
@@ -472,8 +463,10 @@ def work_on_long_cells(
     sq = surface.sq
     if has_moving_roughness(scene):
         course = COURSE_ON_LONG_CELLS
-        work = moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening, course=course)
-        return count * ON_LONG_CELLS * work * _newton_steps(scene, sample, sq=sq, speed=speed)
+        work = moving_point_work(
+            scene, sample, surface, speed, sample_coarsening=sample_coarsening, course=course, has_usual_steps=False
+        )
+        return count * ON_LONG_CELLS * work
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     length = sum(reach(scene.line_contact(abs(speed)), sq))
@@ -496,10 +489,14 @@ def moving_point_work(
     *,
     sample_coarsening: tuple[float, float],
     course: ExpectedCourse = EXPECTED_COURSE,
+    has_usual_steps: bool = True,
+    passed: float | None = None,
 ) -> float:
     """Estimate the counted work [s] of a point at ``speed`` [m/s] on one strip of moving roughness, ends of input ranges included.
 
     The cells are ``sample_coarsening`` times as long as those of ``sample``, to which the ``surface`` belongs.
+    ``has_usual_steps``: whether a step in time takes what it does where nothing else is known, as for the choice of "auto"; else
+    what is expected of this contact (`StepFacts`). ``passed``: as of `moving_work`.
     """
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
@@ -512,6 +509,10 @@ def moving_point_work(
     solved_ends = _solved_ends(scene, surface, speed)
     if not sample.represents_more:  # all of the map passes
         course = replace(course, way=math.inf)
+        passed = None
+    factor = 1.0
+    if not has_usual_steps:
+        factor = StepFacts.of(scene, sq=sq, speed=speed, lengths=sample.correlation_lengths, cell=fx * dx).factor
     return moving_work(
         line,
         sq,
@@ -521,6 +522,8 @@ def moving_point_work(
         cells=cells,
         continuations=_with_middle(solved_ends),
         course=course,
+        factor=factor,
+        passed=passed,
     )
 
 

@@ -637,13 +637,22 @@ def moving_work(
     cells: float,
     continuations: float = 0.0,
     course: ExpectedCourse = EXPECTED_COURSE,
+    factor: float = 1.0,
+    passed: float | None = None,
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
-    `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
+    `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]. Of a step in time it is
+    `work_of_step_in_time` times the ``factor``. ``passed``: part of the map that passes, or the way of the first moments if that is
+    more; None: by the ``course``."""
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
     count = math.ceil(min(count, course.way * film_half_width(line) / (abs(fastest) * step)))
     compared = min(count, math.ceil(COMPARED_WAY * film_half_width(line) / (line.entrainment_speed * step)))
-    steps = course.rest + discarded + count + continuations * once_more + course.on_longer * (discarded + compared)
-    return steps * work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
+    steps = discarded + count + continuations * once_more + course.on_longer * (discarded + compared)
+    return (course.rest + factor * steps) * work_of_step_in_time(cells)
+
+
+def work_of_step_in_time(cells: float) -> float:
+    """Return the counted work [s] of a step in time on so many ``cells``, of a contact of which nothing else is known."""
+    return work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)

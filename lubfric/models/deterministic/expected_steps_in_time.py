@@ -1,0 +1,86 @@
+"""The counted work of a step in time that is expected of moving roughness, by a closed form.
+
+Its constants are the fit of ``python -m verification.campaigns.rolling_work`` to the first steps of random contacts, on the cells of
+the deterministic model and on long ones.
+"""
+
+import math
+from dataclasses import dataclass
+
+from ...scene import Scene, moving_bodies
+from ..shared import peak_hertz_pressure
+from .moving_strip import FAST_ROUGHNESS, SLOW_ROUGHNESS, TIGHT, effort_for
+
+# ln of the work of a step over `work_of_step_in_time`, where all features are 0 [-]. Fitted.
+LOG_WORK = -0.686
+
+# Its changes with the features of `StepFacts` [-]. Fitted.
+BY_THICKENING = 0.239
+BY_RIDGES_ALONG = 0.173
+BY_PART_OF_CELL = 1.042
+BY_TIGHT_STEPS = 0.333
+
+# These in the order of `StepFacts.features` [-]. By definition.
+COEFFICIENTS = (LOG_WORK, BY_THICKENING, BY_RIDGES_ALONG, BY_PART_OF_CELL, BY_TIGHT_STEPS)
+
+# The pressure-viscosity coefficient times Hertz pressure over Λ below which the work of a step changes with it no more [-]: about
+# the least in the contacts of the fit. Measured there.
+LEAST_THICKENING = 0.56
+
+# Λ below which ridges along the motion change the work of a step [-]. A choice: between 1 and 4 the fit is as good.
+THIN_ON_RIDGES = 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepFacts:
+    """What is known of the steps in time of a contact before anything is solved.
+
+    Attributes
+    ----------
+    thickened : pressure-viscosity coefficient times Hertz pressure
+    lambda_ratio : film of the smooth contact over Sq
+    lay : correlation length along y over that along x
+    moved : cells by which the roughness moves in a step, of two rough bodies in the mean
+    tight : 1.0 if steps are `lubfric.models.deterministic.TIGHT`, else 0.0
+    """
+
+    thickened: float
+    lambda_ratio: float
+    lay: float
+    moved: float
+    tight: float
+
+    @classmethod
+    def of(cls, scene: Scene, *, sq: float, speed: float, lengths: tuple[float, float], cell: float) -> "StepFacts":
+        """Return the facts of roughness of ``sq`` [m] and the correlation ``lengths`` [m] at ``speed`` [m/s], on cells [m] along
+        x."""
+        (lx, ly) = lengths
+        line = scene.line_contact(abs(speed))
+        return cls(
+            thickened=scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene),
+            lambda_ratio=line.moes_film / sq,
+            lay=ly / lx,
+            moved=_cells_in_a_step(scene),
+            tight=float(effort_for(line, sq, cell) is TIGHT),
+        )
+
+    @property
+    def features(self) -> tuple[float, ...]:
+        """What ln of the work of a step is a linear function of, in the order of `COEFFICIENTS`."""
+        thickening = math.log(max(self.thickened / self.lambda_ratio, LEAST_THICKENING))
+        on_ridges = max(math.log(THIN_ON_RIDGES / self.lambda_ratio), 0.0) if self.lay < 1.0 else 0.0
+        return 1.0, thickening, on_ridges, abs(self.moved - round(self.moved)), self.tight
+
+    @property
+    def factor(self) -> float:
+        """The expected work of a step over `lubfric.models.deterministic.moving_strip.work_of_step_in_time`."""
+        return math.exp(sum(a * b for a, b in zip(COEFFICIENTS, self.features)))
+
+
+def _cells_in_a_step(scene: Scene) -> float:
+    """Return `StepFacts.moved`: a step is that in which the film passes a cell, or the fastest body (`SLOW_ROUGHNESS`,
+    `FAST_ROUGHNESS`)."""
+    ratios = [ratio for _, ratio in moving_bodies(scene)]
+    fastest = max(abs(ratio) for ratio in ratios)
+    mean = sum(ratios) / len(ratios)
+    return max(0.0, mean if SLOW_ROUGHNESS <= fastest <= FAST_ROUGHNESS else mean / fastest)
