@@ -240,6 +240,11 @@ def _needed_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> 
     return STRIPS_SPARE[0] * (CAUTIOUS * error / scene.numerics.sampling_tolerance) ** 2
 
 
+def _passed(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return the part of the map of a strip that passes until its own sampling error is reached (`MOVING_SAMPLE`)."""
+    return min(1.0, _needed_strips(scene, sample, sq=sq, speed=speed) / MOVING_SAMPLE**2)
+
+
 def _work_at_rest(
     scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: int, is_smooth: bool
 ) -> float:
@@ -387,7 +392,6 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
 
 def _seconds_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float) -> float:
     """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]."""
-    needed = _needed_strips(scene, sample, sq=surface.sq, speed=speed)
     return IN_MOTION * moving_point_work(
         scene,
         sample,
@@ -396,7 +400,7 @@ def _seconds_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: fl
         sample_coarsening=sample_coarsening_of(scene, sample),
         course=COURSE_OF_TIME,
         has_usual_steps=False,
-        passed=min(1.0, needed / MOVING_SAMPLE**2),
+        passed=_passed(scene, sample, sq=surface.sq, speed=speed),
     )
 
 
@@ -464,7 +468,14 @@ def work_on_long_cells(
     if has_moving_roughness(scene):
         course = COURSE_ON_LONG_CELLS
         work = moving_point_work(
-            scene, sample, surface, speed, sample_coarsening=sample_coarsening, course=course, has_usual_steps=False
+            scene,
+            sample,
+            surface,
+            speed,
+            sample_coarsening=sample_coarsening,
+            course=course,
+            has_usual_steps=False,
+            passed=_passed(scene, sample, sq=sq, speed=speed),
         )
         return count * ON_LONG_CELLS * work
     (fx, fy) = sample_coarsening

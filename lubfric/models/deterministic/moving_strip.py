@@ -163,7 +163,7 @@ class ExpectedCourse:
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
 # On the long cells of the quick model: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random
-# contacts of verification/campaigns/estimates.
+# contacts of verification/campaigns/estimates. The way does not count where the sample says how much of its map passes.
 COURSE_ON_LONG_CELLS = ExpectedCourse(rest=3.0, way=2.0, on_longer=0.0)
 
 
