@@ -168,7 +168,7 @@ def _place(plan: studies.StudyPlan, index: tuple[int, ...], outcome: Any) -> str
 
 
 # What a negative f is, on the line of a point.
-NEGATIVE = " (negative: the rolling resistance of the upper surface is above the friction of sliding)"
+NEGATIVE = " (negative: the rolling resistance on surface 2 is above the friction of sliding)"
 
 
 def _in_a_line(outcome: FrictionResult | Exception) -> str:
