@@ -179,7 +179,8 @@ def _parameters_table(result: FitResult) -> str:
             else plain_number(float(move), unit if key != OIL_TEMPERATURE else "K", 2),
         ]
         body = "".join(f'<td class="number">{escape(text)}</td>' for text in cells)
-        rows.append(f'<td>{escape(_label(key))}<br><span class="small">{escape(key)}</span></td>{body}')
+        parts = escape(key).replace(".", ".<wbr>").replace("_", "_<wbr>")  # a narrow column breaks the key there
+        rows.append(f'<td>{escape(_label(key))}<br><span class="key">{parts}</span></td>{body}')
     heads = [
         "parameter",
         "fitted value",

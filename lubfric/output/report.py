@@ -783,7 +783,7 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
         for what, *changes, advice in effects
     ]
     head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
-    return head + table(["effect", "change of f", "recommendation"], rows)
+    return head + table(["effect", "change of f", "recommendation"], rows, in_sentences=True)
 
 
 def warnings_and_notes(validity: Iterable[str]) -> str:
@@ -908,16 +908,24 @@ def picture(content: bytes, caption: str) -> str:
     return f'<figure><img alt="{text}" src="data:image/png;base64,{data}"><figcaption>{text}</figcaption></figure>'
 
 
-def table(heads: Sequence[str], rows: Sequence[str]) -> str:
-    """Return a table that scrolls by itself where it is wider than the page. On a narrow screen each row becomes a list
-    in which every cell has its heading before it, so that nothing is cut."""
-    rows = [_labelled(heads, row) for row in rows]
-    kind = ' class="wide"' if len(heads) > NARROW_COLUMNS else ""
+def table(heads: Sequence[str], rows: Sequence[str], *, in_sentences: bool = False) -> str:
+    """Return a table that scrolls by itself where it is wider than the page. On a narrow screen each row of more than
+    `NARROW_COLUMNS`, or of sentences, becomes a list in which every cell has its heading before it, so that nothing is cut."""
+    kind = ' class="wide"' if len(heads) > NARROW_COLUMNS or in_sentences else ""
     kind = ' class="wide many"' if len(heads) > MANY_COLUMNS else kind
-    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
+    kinds = _kinds_of_heads(heads, rows)
+    head = "".join(f"<th{of_head}>{escape(text)}</th>" for text, of_head in zip(heads, kinds))
     head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
-    body = "".join(f"<tr>{row}</tr>" for row in rows)
+    body = "".join(f"<tr>{_labelled(heads, row)}</tr>" for row in rows)
     return f'<div class="scroll"><table{kind}>{head}<tbody>{body}</tbody></table></div>'
+
+
+def _kinds_of_heads(heads: Sequence[str], rows: Sequence[str]) -> list[str]:
+    """Return the class of each heading as an attribute: that of a number, at the right, where its cells are numbers."""
+    longest = max(rows, key=lambda row: row.count("<td"), default="")  # the row of a failed point joins cells
+    number = ' class="number"'
+    kinds = [number if cell.startswith(number) else "" for cell in longest.split("<td")[1:]]
+    return kinds + [""] * (len(heads) - len(kinds))
 
 
 def _labelled(heads: Sequence[str], row: str) -> str:

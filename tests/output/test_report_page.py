@@ -1,5 +1,5 @@
-"""report.html in a real browser: it fits its window and a sheet of paper, its pictures are there, and no word of a user
-runs as a script."""
+"""report.html in a real browser: it fits a phone, a window and a sheet of paper, its pictures are there, and no word of a
+user runs as a script."""
 
 import json
 import re
@@ -9,6 +9,7 @@ from html import escape, unescape
 
 import numpy as np
 import pytest
+from pictures import put_back
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
@@ -19,16 +20,38 @@ BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "
 OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]
 NAME = "<script>document.title = 'ran'</script> R&D"
 SCENE = f"name = {json.dumps(NAME)}\n" + BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\n"
+MOTION = "[transient]\nduration = 1e-3\noutputs = 4\n"
+MOTION += 'speed = { kind = "harmonic", mean = 0.2, amplitude = 0.1, frequency = 1000.0 }\n'
+FILES = {
+    "s.toml": SCENE + SMALL_PATCH,
+    "history.toml": SCENE + SMALL_PATCH + MOTION,
+    "p.csv": "position [mm],load [N],speed [m/s]\n-1,3,0.1\n0,5,0.2\n1,4,0.3\n",
+    "rig.csv": "U [m/s],mu\n0.1,0.0312\n0.3,0.0519\n1,0.0945\n3,0.162\n",
+}
+FITTED = ["lubricant.viscosity=0.05:1", "lubricant.limiting_stress_coefficient=0.05:0.2"]
+COMMANDS = {
+    "run": ["run", "s.toml", "--speeds", "0.1,0.3,1"],
+    "history": ["run", "history.toml"],
+    "study": ["study", "s.toml", "--points", "p.csv"],
+    "fit": "fit s.toml --measured rig.csv --coefficient mu --starts 0 --speed".split()
+    + ["U [m/s]", *(word for parameter in FITTED for word in ("--parameter", parameter))],
+}
+PICTURES = {"run": 3, "history": 2, "study": 1, "fit": 1}
+WIDTHS = {"phone": 375, "tablet": 680, "window": 1200, "paper": 680}  # px; A4 has 680 between its margins
 LOOK = """<script>window.onload = () => {
-  const page = document.querySelector("iframe").contentDocument, wide = page.documentElement;
-  const images = [...page.images], texts = name => [...page.querySelectorAll(name)].map(h => h.textContent);
-  document.body.dataset.seen = JSON.stringify({
-    title: page.title, head: texts("h1")[0], sections: texts("h2"), status: texts(".status")[0],
-    drawn: images.every(i => i.complete && i.naturalWidth > 300), images: images.length,
-    beyond: wide.scrollWidth - wide.clientWidth, width: wide.clientWidth, answer: texts(".answer")[0],
-    folded: [...page.querySelectorAll("details")].map(d => d.open),
-    longest: Math.max(...[...page.querySelectorAll(".budget i")].map(i => i.offsetWidth)),
-    bars: [...page.querySelectorAll(".budget i")].map(i => i.style.width)})}</script></body>"""
+  const look = frame => {
+    const page = frame.contentDocument, wide = page.documentElement, details = [...page.querySelectorAll("details")];
+    const images = [...page.images], texts = name => [...page.querySelectorAll(name)].map(h => h.textContent);
+    const folded = details.map(d => d.open);
+    details.forEach(d => d.open = true);
+    return {
+      title: page.title, head: texts("h1")[0], sections: texts("h2"), status: texts(".status")[0],
+      drawn: images.every(i => i.complete && i.naturalWidth > 300), images: images.length,
+      beyond: wide.scrollWidth - wide.clientWidth, width: wide.clientWidth, answer: texts(".answer")[0], folded: folded,
+      tables: [...page.querySelectorAll(".scroll")].map(t => t.scrollWidth - t.clientWidth),
+      longest: Math.max(...[...page.querySelectorAll(".budget i")].map(i => i.offsetWidth)),
+      bars: [...page.querySelectorAll(".budget i")].map(i => i.style.width)}};
+  document.body.dataset.seen = JSON.stringify([...document.querySelectorAll("iframe")].map(look))}</script></body>"""
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no browser")
 
 
@@ -38,43 +61,79 @@ def browse(folder, *options):
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("report")
-    (folder / "s.toml").write_text(SCENE + SMALL_PATCH)
-    assert main(["run", str(folder / "s.toml"), "--speeds", "0.1,0.3,1", "--out", str(folder / "out")]) == 0
-    return folder
+def folder_of(tmp_path_factory):
+    """The folder of a command of `COMMANDS`, carried out once, with its pictures."""
+    folders = {}
+
+    def carried_out(kind):
+        if kind not in folders:
+            folder = tmp_path_factory.mktemp(kind)
+            for name, content in FILES.items():
+                (folder / name).write_text(content)
+            with pytest.MonkeyPatch.context() as patch:
+                patch.chdir(folder)
+                put_back(patch.setattr)
+                assert main([*COMMANDS[kind], "--out", "out"]) == 0
+            folders[kind] = folder
+        return folders[kind]
+
+    return carried_out
 
 
-@pytest.mark.parametrize("width", [375, 680, 1200])  # px, of a phone, of A4 between its margins, and of a window
-def test_it_opens_whole_and_runs_nothing(run, width):
-    """In a frame of that width, because a window is at least 500 px wide."""
+@pytest.fixture(scope="module")
+def run(folder_of):
+    return folder_of("run")
+
+
+def look(folder):
+    """What is seen of the report in ``folder`` in frames of `WIDTHS`, by their names: a window is at least 500 px wide."""
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    printed = page.replace("@media print", "@media all").replace("@media screen and", "@media print and")
+    pages = {name: printed if name == "paper" else page for name in WIDTHS}
+    style = "height: 20000px; border: 0"  # all of a page without a bar to scroll
+    frames = [
+        f'<iframe srcdoc="{escape(pages[name])}" style="width: {px}px; {style}"></iframe>'
+        for name, px in WIDTHS.items()
+    ]
+    (folder / "look.html").write_text(f'<meta charset="utf-8"><body>{"".join(frames)}{LOOK}', encoding="utf-8")
+    shown = browse(folder, "--window-size=1300,900", "--dump-dom", (folder / "look.html").as_uri()).stdout
+    return dict(zip(WIDTHS, json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))))
+
+
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_every_report_fits_a_phone_a_window_and_paper(folder_of, kind):
+    """Nothing is wider than its page, and no table than a phone, a window or a sheet; a tablet scrolls a table by itself."""
+    for name, seen in look(folder_of(kind)).items():
+        assert seen["title"] == NAME and seen["head"].startswith(NAME) and seen["status"].startswith("Converged: ")
+        assert seen["drawn"] and seen["images"] == PICTURES[kind]
+        assert seen["width"] == WIDTHS[name] and seen["beyond"] <= 0 and len(seen["tables"]) > 5
+        assert name == "tablet" or max(seen["tables"]) <= 0
+
+
+def test_a_report_opens_whole_and_runs_nothing(run):
     page = (run / "out" / "report.html").read_text(encoding="utf-8")
-    frame = f'<iframe srcdoc="{escape(page)}" style="width: {width}px; height: 9000px; border: 0"></iframe>'
-    (run / "look.html").write_text(f'<meta charset="utf-8"><body>{frame}{LOOK}', encoding="utf-8")
-    shown = browse(run, "--window-size=1300,900", "--dump-dom", (run / "look.html").as_uri()).stdout
-    seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
-    assert seen["title"] == NAME and seen["head"].startswith(NAME)
-    assert seen["drawn"] and seen["images"] == 3 and seen["width"] == width and seen["beyond"] <= 0
+    record = json.loads((run / "out" / "result.json").read_text())
+    point = record["points"][1]
+    known = point["uncertainty"]
+    low, high = known["interval"]
+    of_sample = stdtrit(known["freedom"], 0.975) * known["sampling"]
+    errors = [known["numerical"], of_sample, known["model"], known["inputs"]]
     parts = (
         "Answer|Uncertainty budget|Operating points|Warnings|Effects not modelled|Inputs|Pictures of the contact and"
     )
     parts += " the surface|Method and sources|Reproducibility"
-    assert seen["sections"] == parts.split("|")
-    assert seen["status"] == "Converged: all 3 speeds are solved."
-    assert 'name="viewport"' in page and len(seen["folded"]) >= 2 and not any(seen["folded"])
-    record = json.loads((run / "out" / "result.json").read_text())
-    point = record["points"][1]
-    low, high = point["uncertainty"]["interval"]
-    numbers = map(float, re.findall(r"\d+\.\d+", seen["answer"])[:3])
-    for number, exact in zip(numbers, (point["coefficient"], low, high)):
-        assert number == pytest.approx(exact, abs=0.06 * (high - low))
-    assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s.") and record["hash"] in page
-    bars = [float(bar.removesuffix("%")) for bar in seen["bars"]]
-    known = point["uncertainty"]
-    of_sample = stdtrit(known["freedom"], 0.975) * known["sampling"]
-    errors = [known["numerical"], of_sample, known["model"], known["inputs"]]
-    assert seen["longest"] > 200  # px: on a phone it has a row of its own
-    np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
+    assert 'name="viewport"' in page and record["hash"] in page
+    for seen in look(run).values():
+        assert seen["title"] == NAME and seen["sections"] == parts.split("|")
+        assert seen["status"] == "Converged: all 3 speeds are solved."
+        assert len(seen["folded"]) >= 2 and not any(seen["folded"])
+        numbers = map(float, re.findall(r"\d+\.\d+", seen["answer"])[:3])
+        for number, exact in zip(numbers, (point["coefficient"], low, high)):
+            assert number == pytest.approx(exact, abs=0.06 * (high - low))
+        assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s.")
+        bars = [float(bar.removesuffix("%")) for bar in seen["bars"]]
+        assert seen["longest"] > 200  # px: on a phone it has a row of its own
+        np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
 
 
 def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
@@ -91,9 +150,12 @@ def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
     )
 
 
-def test_it_prints_on_some_sheets(run):
-    browse(run, "--no-pdf-header-footer", f"--print-to-pdf={run / 'out.pdf'}", (run / "out" / "report.html").as_uri())
-    content = (run / "out.pdf").read_bytes()
+@pytest.mark.parametrize("kind", COMMANDS)
+def test_every_report_prints_on_some_sheets(folder_of, kind):
+    folder = folder_of(kind)
+    report = (folder / "out" / "report.html").as_uri()
+    browse(folder, "--no-pdf-header-footer", f"--print-to-pdf={folder / 'out.pdf'}", report)
+    content = (folder / "out.pdf").read_bytes()
     assert content.startswith(b"%PDF") and 2 <= len(re.findall(rb"/Type /Page\b", content)) <= 8
     boxes = {tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox \[([^]]*)\]", content)}
     assert all(box[2:] == pytest.approx((595, 842), abs=1.5) for box in boxes)  # points: A4, upright
@@ -108,22 +170,11 @@ def test_the_record_has_units_and_a_date(run):
     assert set(numbers) <= set(units)
 
 
-def test_the_page_of_a_study_fits_a_phone(tmp_path):
-    """Each row of its table is a list there, with the heading before every number."""
-    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH)
-    (tmp_path / "p.csv").write_text("position [mm],load [N],speed [m/s]\n-1,3,0.1\n0,5,0.2\n1,4,0.3\n")
-    out = tmp_path / "out"
-    assert main(["study", str(tmp_path / "s.toml"), "--points", str(tmp_path / "p.csv"), "--out", str(out)]) == 0
-    page = (out / "report.html").read_text(encoding="utf-8")
-    frame = f'<iframe srcdoc="{escape(page)}" style="width: 375px; height: 9000px; border: 0"></iframe>'
-    look = LOOK.replace(
-        "beyond:", "tables: [...page.querySelectorAll('.scroll')].map(t => t.scrollWidth - t.clientWidth), beyond:"
-    )
-    (tmp_path / "look.html").write_text(f'<meta charset="utf-8"><body>{frame}{look}', encoding="utf-8")
-    shown = browse(tmp_path, "--window-size=1300,900", "--dump-dom", (tmp_path / "look.html").as_uri()).stdout
-    seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
-    assert seen["beyond"] <= 0 and seen["tables"] and max(seen["tables"]) <= 0
-    assert seen["status"] == "Converged: all 3 points are solved." and 'data-label="total load [N]"' in page
+def test_a_row_of_a_table_has_the_heading_of_every_number(folder_of):
+    """A phone shows it as a list. Headings are over their numbers, at the right."""
+    page = (folder_of("study") / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Converged: all 3 points are solved." in page and 'data-label="total load [N]"' in page
+    assert '<th class="number">total load [N]</th>' in page and "<th>recommendation</th>" in page
 
 
 def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
