@@ -268,8 +268,8 @@ def study_status(result: StudyResult) -> str:
         unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
         return " ".join((head, *shortfalls(inexact, unknown, result.solved)))
     failed = Counter(result.failures)
-    reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
-    return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}"
+    reasons = "; ".join(f"{count} x {reason.removesuffix('.')}" for reason, count in failed.most_common(3))
+    return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}."
 
 
 def _range(key: str, values: np.ndarray) -> str:
@@ -315,11 +315,14 @@ def _table(result: StudyResult, rows: int) -> str:
             continue
         digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
         cells.append([_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)])
-    body = ["".join(f'<td class="number">{escape(text)}</td>' for text in row) for row in zip(*cells)]
-    if result.failed:
-        heads.append("status")
-        status = columns["status"][picked]
-        body = [f"{row}<td>{escape(str(state))[:60]}</td>" for row, state in zip(body, status)]
+    inputs_alone = len(heads) - len(REPORTED_NUMBERS)
+    why = f'<td colspan="{len(REPORTED_NUMBERS)}" class="warning">'
+    failures = set(result.failures)
+    body = []
+    for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
+        numbers = row[:inputs_alone] if status in failures else row
+        texts = "".join(f'<td class="number">{escape(text)}</td>' for text in numbers)
+        body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
     return table(heads, body)
 
 

@@ -177,6 +177,24 @@ def test_a_row_of_a_table_has_the_heading_of_every_number(folder_of):
     assert '<th class="number">total load [N]</th>' in page and "<th>recommendation</th>" in page
 
 
+def test_a_failed_point_of_a_study_has_its_whole_reason_in_the_table(tmp_path):
+    """It was cut within a number: the limit of 2000 came out as 20."""
+    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH)
+    (tmp_path / "p.csv").write_text("load [N],speed [m/s]\n3,0.1\n5,2000\n")
+    command = ["study", str(tmp_path / "s.toml"), "--points", str(tmp_path / "p.csv"), "--out", str(tmp_path / "out")]
+    assert main(command) == 1
+    record = (tmp_path / "out" / "study.csv").read_text(encoding="utf-8")
+    (reason,) = re.findall("ValidityError: .*?marked[.]", record)
+    page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
+    rows = re.findall(r"<tr>.*?</tr>", page.partition("<h2>Operating points</h2>")[2].partition("<details>")[0])
+    heads, solved, failed = (re.findall(r"<t[hd]", row) for row in rows)
+    columns, shown = re.search(
+        r'<td data-label="friction coefficient" colspan="(\d)"[^>]*>(.*?)</td>', rows[2]
+    ).groups()
+    assert shown == reason and len(heads) == len(solved) == len(failed) - 1 + int(columns) > len(failed)
+    assert f"1 of 2 points solved. Failures: 1 x {reason}</p>" in page
+
+
 def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
     page = (run / "out" / "report.html").read_text(encoding="utf-8")
     method = page.partition("<h2>Method and sources</h2>")[2]
