@@ -105,7 +105,8 @@ class Wear(FrozenArrays, Shown):
     notes: tuple[str, ...] = ()
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Draw Sq and lift-off speed over the distance, each over its first value, on ``ax`` or new axes."""
+        """Draw Sq, lift-off speed and asperity load ratio over the distance, each over its first value, on ``ax`` or new axes.
+        Without asperity load there is no such ratio to draw."""
         axes = figures.axes_or_new(ax)
         first = self.lift_off_speed[0]
         unit = unit_for(self.distance[1:].tolist(), "m")
@@ -115,8 +116,9 @@ class Wear(FrozenArrays, Shown):
         axes.plot(over, self.lift_off_speed / first, "s-", ms=4, color=figures.BLUE, label="lift-off speed")
         if np.isfinite(low).any():
             axes.fill_between(over, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="its 95 % interval")
-        axes.plot(over, self.asperity_load_ratio / self.asperity_load_ratio[0], "^-", ms=4, color=figures.RED)
-        axes.lines[-1].set_label("asperity load ratio")
+        ratio = self.asperity_load_ratio
+        if ratio[0] > 0:
+            axes.plot(over, ratio / ratio[0], "^-", ms=4, color=figures.RED, label="asperity load ratio")
         axes.set(xlabel=f"sliding distance in the contact ({printed(unit)})", ylabel="value over its first (-)")
         axes.set_ylim(bottom=0, top=1.05 * axes.get_ylim()[1])
         figures.key_above(axes, 2)

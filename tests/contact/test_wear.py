@@ -215,6 +215,8 @@ def test_without_asperity_load_nothing_wears():
     lifted = run_in(SHORT.with_(motion={"entrainment_speed": 2.0}), distance=1.0, wear_coefficient=1e-6)
     np.testing.assert_array_equal(lifted.surface.heights, lifted.dented.heights)
     assert "less than 0.1 %" in lifted.wear.stopped
+    labels = [line.get_label() for line in lifted.wear.plot().lines]
+    assert labels == ["Sq", "lift-off speed"]  # no ratio to a first value of 0
 
 
 def test_a_flat_contact_wears_too(monkeypatch):
