@@ -24,6 +24,7 @@ MOTION = "[transient]\nduration = 1e-3\noutputs = 4\n"
 MOTION += 'speed = { kind = "harmonic", mean = 0.2, amplitude = 0.1, frequency = 1000.0 }\n'
 FILES = {
     "s.toml": SCENE + SMALL_PATCH,
+    "deterministic.toml": SCENE + SMALL_PATCH.replace('"paper"', '"deterministic"'),
     "history.toml": SCENE + SMALL_PATCH + MOTION,
     "p.csv": "position [mm],load [N],speed [m/s]\n-1,3,0.1\n0,5,0.2\n1,4,0.3\n",
     "rig.csv": "U [m/s],mu\n0.1,0.0312\n0.3,0.0519\n1,0.0945\n3,0.162\n",
@@ -31,12 +32,13 @@ FILES = {
 FITTED = ["lubricant.viscosity=0.05:1", "lubricant.limiting_stress_coefficient=0.05:0.2"]
 COMMANDS = {
     "run": ["run", "s.toml", "--speeds", "0.1,0.3,1"],
+    "deterministic": ["run", "deterministic.toml", "--speeds", "0.05"],
     "history": ["run", "history.toml"],
     "study": ["study", "s.toml", "--points", "p.csv"],
     "fit": "fit s.toml --measured rig.csv --coefficient mu --starts 0 --speed".split()
     + ["U [m/s]", *(word for parameter in FITTED for word in ("--parameter", parameter))],
 }
-PICTURES = {"run": 3, "history": 2, "study": 1, "fit": 1}
+PICTURES = {"run": 3, "deterministic": 3, "history": 2, "study": 1, "fit": 1}
 WIDTHS = {"phone": 375, "tablet": 680, "window": 1200, "paper": 680}  # px; A4 has 680 between its margins
 LOOK = """<script>window.onload = () => {
   const look = frame => {
