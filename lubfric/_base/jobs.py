@@ -8,6 +8,7 @@ from contextvars import ContextVar
 from functools import partial
 from typing import Any, TypeVar
 
+from .processor_time import ProcessorTime, receive_time, reported_time
 from .work import count_work, limited_work, unlimited_work, work_left
 
 T = TypeVar("T")
@@ -45,7 +46,7 @@ def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any)
     jobs = [partial(function, *arguments, part) for part in parts]
     if executor is None or len(jobs) < 2:
         return [job() for job in jobs]
-    futures: list[Future[tuple[T | Exception, float]] | None] = []
+    futures: list[Future[tuple[T | Exception, float, ProcessorTime]] | None] = []
     left = work_left()
     for job in jobs:
         try:
@@ -59,7 +60,8 @@ def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any)
                 outcome = _counted(job, left) if future is None else future.result()
             except BrokenExecutor:
                 outcome = _counted(job, left)
-            (result, work) = outcome
+            (result, work, spent) = outcome
+            receive_time(spent)
             count_work(work)
             if isinstance(result, Exception):
                 raise result
@@ -71,12 +73,12 @@ def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any)
     return results
 
 
-def _counted(job: Callable[[], T], limit: float) -> tuple[T | Exception, float]:
-    """Return the result of a part, or what it raised, and its counted work [s], which ends at ``limit``."""
+def _counted(job: Callable[[], T], limit: float) -> tuple[T | Exception, float, ProcessorTime]:
+    """Return the result of a part, or what it raised; its counted work [s], which ends at ``limit``; its processor time."""
     result: T | Exception
-    with unlimited_work(), limited_work(limit) as meter:
+    with unlimited_work(), limited_work(limit) as meter, reported_time() as spent:
         try:
             result = job()
         except Exception as error:  # raised by the caller, in the order of the parts
             result = error
-    return result, meter.spent
+    return result, meter.spent, spent

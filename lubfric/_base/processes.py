@@ -18,6 +18,7 @@ from urllib.parse import urlsplit
 
 from ..errors import InputError
 from . import validate
+from .processor_time import ProcessorTime, receive_time, reported_time
 
 # Time between two looks at whether the command still lives [s]. A choice: less costs time, more leaves processes for
 # longer.
@@ -161,13 +162,14 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time
                 future = ended.get()
                 job, attempt = waiting.pop(future)
                 try:
-                    done, value = future.result()
+                    done, value, spent = future.result()
                 except Exception:  # `_attempt` raises nothing: this is the executor's own
                     if attempt < ATTEMPTS:
                         submit(job, attempt + 1)
                     else:
                         here.append(job)
                     continue
+                receive_time(spent)
                 if not done:
                     raise value
                 yield from value
@@ -178,12 +180,17 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time
             future.cancel()
 
 
-def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any]:
-    """Return (True, the values) or (False, the exception): distinguishes errors of a job from those of the executor."""
-    try:
-        return True, list(job())
-    except Exception as error:
-        return False, error
+def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any, ProcessorTime]:
+    """Return (True, the values) or (False, the exception), and the processor time: distinguishes errors of a job from those
+    of the executor."""
+    with reported_time() as spent:
+        try:
+            done = True
+            outcome: Any = list(job())
+        except Exception as error:
+            done = False
+            outcome = error
+    return done, outcome, spent
 
 
 def begin_beside(work: Callable[[], None]) -> threading.Thread | None:

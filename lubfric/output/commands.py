@@ -38,6 +38,7 @@ from .._base import (
     validate,
 )
 from .._base.processes import begin_beside
+from .._base.processor_time import processor_time
 from ..errors import InputError, OutputError
 from ..models import prepare
 from ..models.shared import Prepared, Violation, refused, violations_by_unusual_inputs
@@ -368,21 +369,21 @@ class CommandStart(NamedTuple):
     @classmethod
     def now(cls) -> CommandStart:
         """Return that a command begins now."""
-        return cls(time.perf_counter(), _processor_time())
+        return cls(time.perf_counter(), processor_time())
 
     @property
     def seconds(self) -> float:
         """The elapsed time [s] since then."""
         return time.perf_counter() - self.moment
 
+    @property
+    def processor_seconds(self) -> float:
+        """The processor time [s] since then, with that of the worker processes."""
+        return processor_time() - self.processor
+
     def in_words(self) -> str:
         """Return the elapsed and the processor time since then, as text: the latter is what a command estimates."""
-        return f"{self.seconds:.1f} s ({_processor_time() - self.processor:.1f} s of processor time on this machine)"
-
-
-def _processor_time() -> float:
-    """Return the processor time [s] of this process and of the ended ones that it began."""
-    return sum(os.times()[:4])
+        return f"{self.seconds:.1f} s ({self.processor_seconds:.1f} s of processor time, all processes together)"
 
 
 class RunFolder:
@@ -454,6 +455,7 @@ class RunFolder:
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
             "seconds": self.begun.seconds,
+            "processor_seconds": self.begun.processor_seconds,
             "hash": self.fingerprint,
             "report": result.report.as_dict(),
             "validity": result.validity,

@@ -891,6 +891,7 @@ def _made(record: dict[str, Any]) -> str:
             else [("seed of the scene (surface.seed), from which those of the strips follow", record["seed"])]
         ),
         ("wall-clock time of the run", f"{record['seconds']:.3g} s"),
+        ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
         ("solver", record["report"]["solver"]),
     ]
     lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
