@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..estimate import PARTS, FrictionResult
 from ..models.deterministic import FLOOR
 from ..models.shared import (
+    LARGE_NUMERICAL_ERROR,
     Assumption,
     ExpectedEffect,
     Prepared,
@@ -184,7 +185,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
     answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(curve, *nearest)
     effects = estimate.effects if point is None else point.unmodelled_effects
     return {
-        "kind": "failed" if failed else "",
+        "kind": "failed" if failed else "inexact" if _largely_inexact(curve) else "",
         "status": escape(curve_status(curve)),
         "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
@@ -205,11 +206,34 @@ def curve_status(curve: CurveResult) -> str:
         points = [point for point in curve.points if point is not None]
         inexact = sum(any(each.assumption == Assumption.NUMERICAL_ERROR for each in point.validity) for point in points)
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
-        return " ".join(filter(None, (head, *shortfalls(inexact, unknown, total))))
+        return " ".join(
+            (*orders_of_magnitude(_largely_inexact(curve), total), head, *shortfalls(inexact, unknown, total))
+        )
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]
     )
+
+
+def _largely_inexact(curve: CurveResult) -> int:
+    """Return at how many points of ``curve`` the numerical error of f is a warning."""
+    return sum(
+        any(each.assumption == Assumption.NUMERICAL_ERROR and not each.is_note for each in point.validity)
+        for point in curve.points
+        if point is not None
+    )
+
+
+def orders_of_magnitude(count: int, total: int) -> list[str]:
+    """Return that at ``count`` of ``total`` solved points f is known to an order of magnitude only, in a sentence; none where
+    there are none."""
+    if count == 0:
+        return []
+    where = "The" if total == 1 else f"At {count} of {total} points the"
+    return [
+        f"{where} numerical error of f is above {percent(LARGE_NUMERICAL_ERROR)}: f is an order of magnitude only (see the "
+        "warnings)."
+    ]
 
 
 def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:

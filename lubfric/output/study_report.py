@@ -25,6 +25,7 @@ from ..models.shared import (
     percent,
     sentence,
     unmodelled_effects,
+    warnings_in_cell,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..samples import is_measured, requests_patch
@@ -45,7 +46,16 @@ from ..studies import (
 from ..time import may_move_roughness
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .inputs import INPUT_SECTIONS, inputs
-from .report import effects_table, films_at_limit, names_of_inputs, picture, shortfalls, style_sheet, table
+from .report import (
+    effects_table,
+    films_at_limit,
+    names_of_inputs,
+    orders_of_magnitude,
+    picture,
+    shortfalls,
+    style_sheet,
+    table,
+)
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -120,7 +130,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         numpy=np.__version__,
         scipy=scipy.__version__,
         key=result.plan.keys[0][:16],
-        kind="failed" if result.failed else "",
+        kind="failed" if result.failed else "inexact" if _largely_inexact(result) else "",
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
@@ -266,10 +276,17 @@ def study_status(result: StudyResult) -> str:
         head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
         inexact = sum(NUMERICAL_ERROR in str(cell) for cell in result.validity.flat)
         unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
-        return " ".join((head, *shortfalls(inexact, unknown, result.solved)))
+        warned = orders_of_magnitude(_largely_inexact(result), result.solved)
+        return " ".join((*warned, head, *shortfalls(inexact, unknown, result.solved)))
     failed = Counter(result.failures)
     reasons = "; ".join(f"{count} x {reason.removesuffix('.')}" for reason, count in failed.most_common(3))
     return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}."
+
+
+def _largely_inexact(result: StudyResult) -> int:
+    """Return at how many points of a study the numerical error of f is a warning."""
+    warnings = (warnings_in_cell(str(cell)) for cell in result.validity.flat)
+    return sum(any(NUMERICAL_ERROR in text for text in texts) for texts in warnings)
 
 
 def _range(key: str, values: np.ndarray) -> str:

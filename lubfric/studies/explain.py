@@ -76,9 +76,12 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
         ordered = sorted(group.values(), key=lambda violation: violation.value)
         values = dict.fromkeys(violation.value_in_words for violation in (ordered[0], ordered[-1]))
         some = f"in {len(group)} of {len(violations)} {plural}: " if len(group) < len(violations) else ""
-        differ = len({(violation.consequence, violation.recommendation) for violation in ordered}) > 1
-        where = "where it is largest" if differ else ""
-        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, where)}")
+        texts = (
+            {violation.consequence for violation in ordered},
+            {violation.recommendation for violation in ordered},
+        )
+        where = ("where it is largest" if len(differing) > 1 else "" for differing in texts)
+        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, *where)}")
     return lines
 
 

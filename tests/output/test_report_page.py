@@ -13,6 +13,7 @@ from pictures import put_back
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
+from lubfric.models.shared import checks
 from lubfric.output import main
 from lubfric.output.report import shortfalls
 
@@ -204,6 +205,29 @@ def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
     assert "At U = 0.3 m/s: film: " in unescape(solved) and "target of the numerical error of f" not in solved
     assert "target of the numerical error of f" in estimate
     assert "seed of the scene (surface.seed), from which those of the strips follow" in page
+
+
+@pytest.mark.parametrize("command", ["run", "study"])
+@pytest.mark.parametrize("is_large", [True, False])
+def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_first(
+    tmp_path, monkeypatch, command, is_large
+):
+    """A warning with its own colour where a numerical error is large, here above any error or above none."""
+    monkeypatch.setattr(checks, "LARGE_NUMERICAL_ERROR", 0.0 if is_large else 1.0)
+    (tmp_path / "s.toml").write_text(
+        re.sub("\ntolerance = .*", "\ntolerance = 1e-4\nfilm_tolerance = 0.03", SCENE + SMALL_PATCH)
+    )
+    (tmp_path / "p.csv").write_text("load [N],speed [m/s]\n3,0.1\n5,0.2\n")
+    options = {"run": ["--speeds", "0.1,0.2"], "study": ["--points", str(tmp_path / "p.csv")]}[command]
+    assert main([command, str(tmp_path / "s.toml"), *options, "--out", str(tmp_path / "out")]) == 0
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    ((kind, text),) = re.findall(r'<p class="status (\w*)" role="status">(.*?)</p>', page)
+    assert kind == ("inexact" if is_large else "")
+    first = (
+        "At 2 of 2 points the numerical error of f is above 20 %: f is an order of magnitude only (see the warnings)."
+    )
+    assert text.startswith(f"{first} Converged: all 2" if is_large else "Converged: all 2")
+    assert ".status.inexact" in page
 
 
 def test_a_status_states_what_misses_its_target_and_what_has_no_interval():

@@ -219,6 +219,14 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     assert "above 5 %. At 0.1 m/s: it takes 8.69 s." in text  # of the one point that has these numbers
     (text,) = gathered_texts([in_a_cell([faster]), in_a_cell([slower])])
     assert text.startswith("At points 1 and 2: slip is 5.2 to 8.69 %, above 5 %. At point 2: it takes 8.69 s.")
+    points = [(0.1, (entry(8.0),)), (0.3, (replace(entry(7.0), recommendation="more"),))]
+    (text,) = gathered(points)
+    assert text.endswith("above 5 %. It slides. Recommendation at 0.1 m/s: less.")  # the consequence holds at both
+    points += [(0.2, (entry(9.0),)), (0.4, (replace(entry(6.0), consequence="it sticks"),))]
+    (text,) = gathered(points)
+    assert text.endswith("At 3 speeds, 0.1 to 0.3 m/s: it slides. Recommendation at 3 speeds, 0.1 to 0.4 m/s: less.")
+    (text,) = gathered_texts([in_a_cell(violations) for _, violations in points])
+    assert text.endswith("above 5 %. At points 1 to 3: it slides. Recommendation at points 1, 3 and 4: less.")
     (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
     assert "slip is 8 %, above" in alike
 

@@ -6,6 +6,7 @@ errors of means along a line and the number of strips that they need; `wording` 
 """
 
 from .checks import (
+    LARGE_NUMERICAL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,
     is_of_impossible_stress,

@@ -15,6 +15,8 @@ from .wording import distinct_texts
 
 # The value in the text of a violation.
 _VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
+# What begins the last sentence of the text of a violation.
+RECOMMENDATION = " Recommendation"
 # What is between the texts of a cell.
 TEXT_SEPARATOR = " | "
 # Runs of points that are named in one sentence, at most. A choice, for a sentence that can be read.
@@ -133,16 +135,18 @@ class Violation(Renamed):
         """The value and the limit as texts that differ."""
         return distinct_texts(self.value, self.limit, _in_digits, least=3)
 
-    def text_of(self, values: str, place: str = "") -> str:
+    def text_of(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
         """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
-        3 m/s)"; ``place``: where the consequence holds as it is stated, if not everywhere."""
+        3 m/s)"; ``place``, ``place_of_recommendation``: where the consequence and the recommendation hold as they are
+        stated, if not everywhere."""
         head = "note" if self.is_note else "warning"
         if self.severe:
             head = "not valid"
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{limit}"
-        last = f" Recommendation: {self.recommendation}." if self.recommendation else ""
+        where = f" {place_of_recommendation}" if place_of_recommendation else ""
+        last = f"{RECOMMENDATION}{where}: {self.recommendation}." if self.recommendation else ""
         consequence = f"{place}: {self.consequence}" if place else self.consequence
         return f"{head}: {self.what} is {numbers}. {sentence(consequence)}{last}"
 
@@ -191,7 +195,8 @@ def gathered(
     points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[str, ...]:
     """Return one sentence for each assumption that is violated anywhere: at how many points, from where to where, and
-    the smallest and the largest value with their places; what it does and what to do: of the worst value.
+    the smallest and the largest value with their places; what it does and what to do: of the worst value, with the places
+    where that is the same, if not all.
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
@@ -201,14 +206,17 @@ def gathered(
             groups.setdefault(violation.kind, []).append((value, violation))
     lines = []
     for group in groups.values():
-        (at_worst, worst) = max(group, key=lambda pair: _distance(pair[1]))
+        (_, worst) = max(group, key=lambda pair: _distance(pair[1]))
         values = sorted(value for value, _ in group)
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
-            differ = len({(violation.consequence, violation.recommendation) for _, violation in group}) > 1
-            place = at_value(at_worst, unit, name) if differ else ""
-            lines.append(f"{at_values(values, unit, name)}: {worst.text_of(_from_to(group, unit), place)}")
+            alike = (
+                sorted(value for value, violation in group if violation.consequence == worst.consequence),
+                sorted(value for value, violation in group if violation.recommendation == worst.recommendation),
+            )
+            places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
+            lines.append(f"{at_values(values, unit, name)}: {worst.text_of(_from_to(group, unit), *places)}")
     return tuple(lines)
 
 
@@ -224,8 +232,8 @@ def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
 
 def gathered_texts(cells: Sequence[str]) -> list[str]:
     """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
-    of each point (`in_a_cell`): the consequence is that of the value farthest beyond its limit. Points are named by their
-    number, from 1."""
+    of each point (`in_a_cell`): consequence and recommendation are those of the value farthest beyond its limit, with the
+    points where they are the same, if not all. Points are named by their number, from 1."""
     groups: dict[tuple[str, bool], dict[int, str]] = {}
     for number, cell in enumerate(cells, 1):
         for text in cell.split(TEXT_SEPARATOR) if cell else ():
@@ -240,16 +248,30 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
             least = values[0][1]
             most = values[-1][1]
             (_, worst, text) = values[0 if is_below else -1]
-        (head, _, consequence) = text.partition(". ")
-        if len({each.partition(". ")[2] for each in group.values()}) > 1:
-            place = next(number for number, each in group.items() if each == text)
+        (head, consequence, recommendation) = _parts_of_text(text)
+        parts = {number: _parts_of_text(each) for number, each in group.items()}
+        alike = sorted(number for number, part in parts.items() if part[1] == consequence)
+        if len(alike) < len(group):
             begin = consequence[:1] if consequence[1:2].isupper() else consequence[:1].lower()  # but of an abbreviation
-            text = f"{head}. At point {place}: {begin}{consequence[1:]}"
+            consequence = f"{_numbers_in_words(alike, len(cells))}: {begin}{consequence[1:]}"
+        advised = sorted(number for number, part in parts.items() if part[2] == recommendation)
+        if recommendation and len(advised) < len(group):
+            place = _numbers_in_words(advised, len(cells)).lower()
+            recommendation = f"{RECOMMENDATION} {place}{recommendation.removeprefix(RECOMMENDATION)}"
+        text = f"{head}. {consequence}{recommendation}"
         if len(values) == len(group):
             if least != most:
                 text = text.replace(f" is {worst}", f" is {least} to {most}", 1)
         lines.append(f"{_numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
     return lines
+
+
+def _parts_of_text(text: str) -> tuple[str, str, str]:
+    """Return the three sentences of the ``text`` of a violation: the first without its full stop, the last "" where there is
+    none."""
+    (head, _, others) = text.partition(". ")
+    (consequence, mark, recommendation) = others.partition(f"{RECOMMENDATION}: ")
+    return head, consequence, f"{mark}{recommendation}"
 
 
 def _numbers_in_words(numbers: list[int], count: int) -> str:
