@@ -698,7 +698,7 @@ def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_rati
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
         omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
-        time_ = f"(wall-clock time {outcome.seconds:.2f} s)"
+        time_ = f"(wall-clock time of the point {outcome.seconds:.2f} s)"
         ratio = value if has_ratios else scene.motion.slide_roll_ratio
         rolling = rolling_in_words(outcome, ratio * outcome.speed).replace(", of", " of", 1)
         loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}{rolling}"

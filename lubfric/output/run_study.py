@@ -151,10 +151,11 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
             return
         head = f"[{done:>{len(str(total))}}/{total}{' curves' if plan.chooses_speeds else ''}]"
         passed = time.perf_counter() - begun
-        ends = f"{passed:.0f} s"
+        of_point = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
+        ends = f"wall-clock time {of_point}of the study so far {passed:.0f} s"
         if 0 < batch[1] and done < total:
             ends += f", about {studies.in_words((batch[0] - begun) * (total - done) / batch[1])} left"
-        say(f"{head} {_place(plan, index, outcome)}: {_in_a_line(outcome)}; {ends}")
+        say(f"{head} {_place(plan, index, outcome)}: {_in_a_line(outcome)} ({ends})")
 
     return on_point
 

@@ -21,6 +21,7 @@ from ..models.shared import (
     gathered_texts,
     half_width_of_error,
     is_note_text,
+    numbers_in_words,
     peak_hertz_pressure,
     percent,
     sentence,
@@ -29,10 +30,11 @@ from ..models.shared import (
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..samples import is_measured, requests_patch
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, has_moving_roughness, inputs_not_given
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget, has_moving_roughness, inputs_not_given
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
+    POSITION,
     UNUSED,
     StudyPlan,
     StudyResult,
@@ -96,7 +98,10 @@ IN_PURE_ROLLING = (
 ALL_IN_TABLE = " The column validity of study.csv has all of them."
 
 # Where an operating point lies.
-COORDINATE = ("position", "angle", "time")
+COORDINATE = (POSITION, "angle", "time")
+
+# What the mean power loss of a path of contact is.
+OF_TOOTH_PAIR = "It is that of one tooth pair: a gear has this times its contact ratio."
 
 # Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
 # of a text.
@@ -359,8 +364,47 @@ def _details(result: StudyResult, rows: int) -> str:
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
     heads += parts
     about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
-    note = f"<p>{RISE_NOTE}</p>" if np.isfinite(rises[1]).any() else ""
+    notes = [RISE_NOTE] if np.isfinite(rises[1]).any() else []
+    notes += why_no_rises(result)
+    note = f"<p>{escape(' '.join(notes))}</p>" if notes else ""
     return f"<details><summary>{about}</summary>{note}{table(heads, body)}</details>"
+
+
+def why_no_rises(result: StudyResult) -> list[str]:
+    """Return at which solved points of a study the temperature rises are not computed, why, and how to get them, a sentence or
+    two for each reason."""
+    columns = columns_of_study(result)
+    missing = np.isfinite(columns["coefficient"]) & np.isnan(columns["flash_temperature_rise"])
+    scenes = _scene_of_each(result)
+    reasons: dict[str, list[int]] = {}
+    for i in np.flatnonzero(missing).tolist():
+        reasons.setdefault(_why_no_rise(scenes[i], float(columns["speed"][i])), []).append(i + 1)
+    solved = np.flatnonzero(np.isfinite(columns["coefficient"])) + 1
+    return [
+        f"{'At all points' if len(numbers) == len(solved) > 1 else numbers_in_words(numbers, len(missing))} the temperature rises are "
+        f"not computed: {reason}."
+        for reason, numbers in reasons.items()
+    ]
+
+
+def _why_no_rise(scene: Scene, speed: float) -> str:
+    """Return why the temperature rises of a point of ``scene`` at ``speed`` [m/s] are not computed, and how to get them."""
+    if scene.numerics.heat == "off":
+        return "numerics.heat = 'off' neglects the heat; 'on' computes them"
+    if not scene.lubricant.heats:
+        return (
+            "the lubricant does not state how its viscosity falls with the temperature; give lubricant.temperature and "
+            "temperature_coefficient, or an oil (grade, nu40, oil)"
+        )
+    if speed == 0 or scene.motion.slide_roll_ratio == 0:
+        return "nothing slides there, so no heat of sliding arises"
+    if scene.numerics.heat == "auto":
+        return (
+            "numerics.heat = 'auto' computes them only where the heat of film and surfaces changes f by more than its share of "
+            f"numerics.tolerance, {percent(budget.HEAT * scene.numerics.tolerance)}; numerics.heat = 'on' computes them at all points "
+            "that slide"
+        )
+    return "the film is outside the range of the formulas of its heat"
 
 
 def _parts_of_error(
@@ -518,6 +562,7 @@ def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
 def _mean_lines(result: StudyResult) -> list[str]:
     """Return the mean power loss and f over the operating points in a sentence, for each combination of what else is
     varied (at most `MOST_MEANS`)."""
+    of_tooth_pair = f" {OF_TOOTH_PAIR}" if POSITION in result.coords else ""
     weighed = "weighted by the duration" if "duration" in result.coords else "all with the same weight"
     rows = []
     for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
@@ -525,7 +570,7 @@ def _mean_lines(result: StudyResult) -> list[str]:
         low, high = (float(np.asarray(end)[index]) for end in result.mean_interval("power_loss"))
         mean = float(np.asarray(result.mean("power_loss"))[index])
         text = _mean_in_words(mean, low, high, "W")
-        rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.")
+        rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.{of_tooth_pair}")
         rows.append(_mean_friction(result, index, where))
     return rows
 

@@ -14,7 +14,7 @@ from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
 from .main_effects import main_effects
-from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
+from .operating_points import DURATION, INTERVAL_COLUMNS, POSITION, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import StudyResult, open_study, study

@@ -9,7 +9,7 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main, report
-from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target
+from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target, why_no_rises
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
@@ -210,11 +210,14 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     ends = [float(sum(p.power_loss_interval[i] * row[-1] for p, row in zip(points, ROWS)) / 4) for i in (0, 1)]
     mean_text = with_interval(mean, *ends, unit="W")
     assert f"The mean power loss of the operating points, weighted by the duration, is {mean_text}" in said
+    (loss,) = (line for line in said.splitlines() if line.startswith("The mean power loss"))
+    assert loss.endswith("It is that of one tooth pair: a gear has this times its contact ratio.")  # over positions
     largest = max(points, key=lambda point: point.power_loss)
     largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
     assert f"The largest power loss is {largest_text}" in said
     page = (out / "report.html").read_text()
     assert "power loss [mW]" in page and mean_text in page and "Converged: all 3 points are solved." in page
+    assert page.count("the temperature rises are not computed: the lubricant does not state how") == 1
     common = page.partition("Inputs common to all points")[2].partition("Method and sources")[0]
     assert "total load" not in common and "length of the line contact" in common  # the load is varied
     assert "data:image/png;base64" in page and (out / "study.png").stat().st_size > 10_000
@@ -401,3 +404,24 @@ def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(e
 
 def test_the_status_of_a_study_is_read_as_its_columns_are():
     assert list(stand_in()["status"]) == ["converged"] * 3 and list(stand_in()["validity"]) == [""] * 3
+
+
+@pytest.mark.parametrize(
+    "heat, numbers, words",
+    [
+        ("auto", "At points 1 and 3", "numerics.heat = 'auto' computes them only where"),
+        ("off", "At all points", "numerics.heat = 'off' neglects the heat; 'on' computes them."),
+        ("on", "At point 2", "nothing slides there"),
+    ],
+)
+def test_a_report_says_why_temperature_rises_are_not_computed_and_how_to_get_them(heat, numbers, words):
+    """The recommendation holds: with it the rises of all points that slide are numbers."""
+    oil = {"temperature": 353.15, "temperature_coefficient": 0.03, "reference_temperature": None}
+    scene = SCENE.with_(lubricant={key: value for key, value in oil.items() if value}, numerics={"heat": heat})
+    columns = dict(zip(("radius", "load", "u1", "u2", "duration"), zip(*ROWS)))
+    result = lubfric.study(scene, points=columns)
+    reasons = why_no_rises(result)
+    (reason,) = (text for text in reasons if words in text)
+    assert reason.startswith(f"{numbers} the temperature rises are not computed: ")
+    assert np.isfinite(result["flash_temperature_rise"]).tolist() == [heat == "on", False, heat == "on"]
+    assert len(reasons) == {"auto": 2, "off": 1, "on": 1}[heat]

@@ -121,6 +121,7 @@ from .violation import (
     gathered_texts,
     in_a_cell,
     is_note_text,
+    numbers_in_words,
     refused,
     sentence,
     violations_of,

@@ -253,16 +253,16 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
         alike = sorted(number for number, part in parts.items() if part[1] == consequence)
         if len(alike) < len(group):
             begin = consequence[:1] if consequence[1:2].isupper() else consequence[:1].lower()  # but of an abbreviation
-            consequence = f"{_numbers_in_words(alike, len(cells))}: {begin}{consequence[1:]}"
+            consequence = f"{numbers_in_words(alike, len(cells))}: {begin}{consequence[1:]}"
         advised = sorted(number for number, part in parts.items() if part[2] == recommendation)
         if recommendation and len(advised) < len(group):
-            place = _numbers_in_words(advised, len(cells)).lower()
+            place = numbers_in_words(advised, len(cells)).lower()
             recommendation = f"{RECOMMENDATION} {place}{recommendation.removeprefix(RECOMMENDATION)}"
         text = f"{head}. {consequence}{recommendation}"
         if len(values) == len(group):
             if least != most:
                 text = text.replace(f" is {worst}", f" is {least} to {most}", 1)
-        lines.append(f"{_numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
+        lines.append(f"{numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
     return lines
 
 
@@ -274,7 +274,7 @@ def _parts_of_text(text: str) -> tuple[str, str, str]:
     return head, consequence, f"{mark}{recommendation}"
 
 
-def _numbers_in_words(numbers: list[int], count: int) -> str:
+def numbers_in_words(numbers: list[int], count: int) -> str:
     """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"."""
     if count == 1:
         return "At the point"
