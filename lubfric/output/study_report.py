@@ -20,6 +20,7 @@ from ..models.shared import (
     alpha_in_words,
     gathered_texts,
     half_width_of_error,
+    is_near_zero,
     is_note_text,
     numbers_in_words,
     peak_hertz_pressure,
@@ -210,20 +211,39 @@ def _ends(values: np.ndarray) -> str:
 
 def model_error_above_target(result: StudyResult) -> list[str]:
     """Return that the model-form error of f is above its target at points whose warnings do not say so: those of a model
-    that was chosen by its name."""
+    that was chosen by its name. Points where f is near 0, as where sliding changes its sign, are apart, with the error in f
+    itself."""
     target = result.plan.scene.numerics.model_tolerance
+    advice = "numerics.model = 'auto' takes the cheapest model within it"
     error = np.where(
         [MODEL_ERROR in str(cell) for cell in result.validity.flat], np.nan, result["uncertainty_model"].flat
     )
-    above = error[error > target]
-    if not above.size:
-        return []
-    ends = " to ".join(dict.fromkeys(percent(float(end)) for end in (above.min(), above.max())))
-    where = f"At {above.size} of {counted(result.solved, 'points')}" if above.size < result.solved else "At all points"
-    advice = "numerics.model = 'auto' takes the cheapest model within it"
-    return [
-        f"{where} the model-form error of f is {ends}, above numerics.model_tolerance, {percent(target)}: {advice}."
-    ]
+    size = np.abs(result["coefficient"]).ravel()
+    near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
+    above = error[(error > target) & ~near_zero]
+    texts = []
+    if above.size:
+        ends = " to ".join(dict.fromkeys(percent(float(end)) for end in (above.min(), above.max())))
+        some = f"At {above.size} of {counted(result.solved, 'points')}"
+        where = some if above.size < result.solved else "At all points"
+        texts.append(
+            f"{where} the model-form error of f is {ends}, above numerics.model_tolerance, {percent(target)}: {advice}."
+        )
+    in_f = (error * size)[near_zero]
+    if in_f.size:
+        ends = " to ".join(dict.fromkeys(f"{end:.2g}" for end in (in_f.min(), in_f.max())))
+        numbers = _numbers_of_points(result)[near_zero].tolist()
+        texts.append(
+            f"{numbers_in_words(numbers, result.solved)}, where f is near 0, the model-form error is {ends} in f itself: a ratio to "
+            f"f says nothing there{'' if texts else f', and {advice}'}."
+        )
+    return texts
+
+
+def _numbers_of_points(result: StudyResult) -> np.ndarray:
+    """Return the number of each point of ``result``, flat, in its tables, which have no unused points."""
+    numbers: np.ndarray = np.cumsum(result.status.ravel() != UNUSED)
+    return numbers
 
 
 def common_inputs(result: StudyResult | StudyPlan) -> str:
@@ -359,7 +379,8 @@ def _details(result: StudyResult, rows: int) -> str:
     for i, row in enumerate(picked):
         cells = [f"{row + 1}", worded(peak_hertz_pressure(scenes[row]), "Pa")]
         cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
-        cells += [percent(float(part[i])) if np.isfinite(part[i]) else "not known" for part in parts.values()]
+        size = abs(float(columns["coefficient"][row]))
+        cells += [_error_in_words(float(part[i]), size) for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
     heads += parts
@@ -368,6 +389,11 @@ def _details(result: StudyResult, rows: int) -> str:
     notes += why_no_rises(result)
     note = f"<p>{escape(' '.join(notes))}</p>" if notes else ""
     return f"<details><summary>{about}</summary>{note}{table(heads, body)}</details>"
+
+
+def _error_in_words(error: float, f: float) -> str:
+    """Return a relative ``error`` of ``f`` as text; in f itself where that is near 0."""
+    return f"{error * f:.2g} in f" if is_near_zero(f, error) else percent(error)
 
 
 def why_no_rises(result: StudyResult) -> list[str]:

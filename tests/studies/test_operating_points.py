@@ -402,6 +402,19 @@ def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(e
     assert [text[: len(words)] for text, words in zip(texts, said)] == said and len(texts) == len(said)
 
 
+def test_a_model_form_error_where_f_is_near_zero_is_apart_and_in_f():
+    """At the pitch point of a gear f is that of rolling: an error of 11 times f is 0.0011."""
+    plain = stand_in(0.4)
+    error = np.array([0.4, 11.0, 0.2])
+    f = np.array([0.1, 1e-4, 0.3])
+    near_zero = StudyResult(
+        HOT, plain.columns | {"coefficient": f, "uncertainty_model": error}, plain.status, plain.validity
+    )
+    (relative, absolute) = model_error_above_target(near_zero)
+    assert relative.startswith("At 2 of 3 points the model-form error of f is 20 % to 40 %, above")
+    assert absolute.startswith("At point 2, where f is near 0, the model-form error is 0.0011 in f itself")
+
+
 def test_the_status_of_a_study_is_read_as_its_columns_are():
     assert list(stand_in()["status"]) == ["converged"] * 3 and list(stand_in()["validity"]) == [""] * 3
 
