@@ -185,7 +185,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
     answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(curve, *nearest)
     effects = estimate.effects if point is None else point.unmodelled_effects
     return {
-        "kind": "failed" if failed else "inexact" if _largely_inexact(curve) else "",
+        "kind": status_kind(failed=failed, inexact=_largely_inexact(curve)),
         "status": escape(curve_status(curve)),
         "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
@@ -194,6 +194,14 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "details": _details(curve) + _law(law, curve),
         "sources": bullets(curve.cite().splitlines()),
     }
+
+
+def status_kind(*, failed: bool, inexact: int) -> str:
+    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and at how many f is ``inexact``, an
+    order of magnitude."""
+    if failed:
+        return "failed"
+    return "inexact" if inexact else ""
 
 
 def curve_status(curve: CurveResult) -> str:

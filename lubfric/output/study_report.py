@@ -56,6 +56,7 @@ from .report import (
     orders_of_magnitude,
     picture,
     shortfalls,
+    status_kind,
     style_sheet,
     table,
 )
@@ -136,7 +137,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         numpy=np.__version__,
         scipy=scipy.__version__,
         key=result.plan.keys[0][:16],
-        kind="failed" if result.failed else "inexact" if _largely_inexact(result) else "",
+        kind=status_kind(failed=result.failed > 0, inexact=_largely_inexact(result)),
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
