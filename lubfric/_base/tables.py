@@ -62,7 +62,7 @@ def read_json(path: Path, recommendation: str) -> Any:
         raise InputError(f"{path} is damaged, or no such record ({why}); {recommendation}") from None
 
 
-def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
+def table_bytes(columns: Mapping[str, np.ndarray | list[Any]]) -> bytes:
     """Return ``columns`` by heading as comma-separated text. Text that a spreadsheet would take for a formula begins
     with an apostrophe."""
     file = io.StringIO(newline="")
@@ -88,13 +88,15 @@ class Columns(dict[str, Any]):
 
 
 def read_table(path: Path, content: bytes | None = None) -> Columns:
-    """Return the columns that `table_bytes` wrote, by name. ``content``: that of the file ``path`` where it is not yet
+    """Return the columns that `table_bytes` wrote, by name; an empty cell of numbers is NaN. ``content``: that of the file ``path`` where it is not yet
     there. Raises `InputError` for a damaged table or another one."""
     try:
         text = (Path(path).read_bytes() if content is None else content).decode()
         heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
-        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
+        words = {n: np.array(c, str) for n, c in columns.items() if n in IN_WORDS}
+        numbers = {n: np.array([cell or "nan" for cell in c], float) for n, c in columns.items() if n not in IN_WORDS}
+        return Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns})
     except (ValueError, IndexError, csv.Error) as problem:
         message = f"{path} is not a complete table of numbers ({shown(str(problem))})"
         raise InputError(f"{message}; give a table that 'lubfric run' wrote") from None

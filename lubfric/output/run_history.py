@@ -2,6 +2,9 @@
 
 import time
 from argparse import Namespace
+from typing import Any
+
+import numpy as np
 
 from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
@@ -9,7 +12,7 @@ from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
 from ..studies import in_words
-from ..time import TransientResult, raise_if_failed, run_in_time
+from ..time import TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
 from . import commands
 from .describe import FILES_SECONDS
 from .fields import npz_bytes
@@ -69,9 +72,12 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         if row is None:
             commands.say(f"{head}between two outputs")
             return
+        speeds = {name: np.array([row[name]]) for name in ("entrainment_speed", "sliding_speed")}
+        friction = f"U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:z.5f}"
+        if not in_motion(speeds, fastest)[0]:
+            friction = "at rest: no f"
         commands.say(
-            f"{head}U = {row['entrainment_speed']:.4g} m/s, f = "
-            f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
+            f"{head}{friction}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
             f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
         )
 
@@ -80,6 +86,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             return f"the state that an earlier run saved is kept in {arguments.out}" if continues else ""
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
+    fastest = fastest_of_run(scene)
     begun = commands.run_begun(scene, arguments, names, kept)
     with ProgressLine("%") as shown, begun as (folder, prepared, estimate):
         continues = folder.unfinished.is_dir()
@@ -122,5 +129,10 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *,
 
 
 def _table(result: TransientResult) -> bytes:
-    columns = {heading(name): result.columns[name] for name in OF_MOMENT}
+    """Return history.csv; where the surfaces are at rest there is no f, and its cells are empty."""
+    moving = in_motion(result.columns).tolist()
+    columns: dict[str, np.ndarray | list[Any]] = {heading(name): result.columns[name] for name in OF_MOMENT}
+    for name in ("coefficient", "interval_low", "interval_high"):
+        values = result.columns[name].tolist()
+        columns[heading(name)] = [value if moves else "" for value, moves in zip(values, moving)]
     return table_bytes(columns | {"validity": [in_a_cell(violations) for violations in result.violations]})

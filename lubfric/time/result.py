@@ -444,11 +444,12 @@ def _residual(columns: dict[str, np.ndarray], name: str, tolerance: float, what:
     return Residual(value=float(size[index]) / tolerance, what=what, where=where)
 
 
-def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:
+def in_motion(c: dict[str, np.ndarray], fastest: float = 0.0) -> np.ndarray:
     """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves: faster than `REST` times
-    the largest speed of the run, so that a reversal is a standstill whatever the rounding errors of a period."""
+    the largest speed of the run, so that a reversal is a standstill whatever the rounding errors of a period. ``fastest``: a
+    speed [m/s] of the run at another time."""
     speeds = np.abs([c["entrainment_speed"], c["sliding_speed"]])
-    return (speeds > REST * np.max(speeds, initial=0.0)).any(axis=0)
+    return (speeds > REST * np.max(speeds, initial=fastest)).any(axis=0)
 
 
 def rolls(c: dict[str, np.ndarray]) -> np.ndarray:

@@ -75,6 +75,15 @@ def value_at(scene: Scene, name: str, constant: float, time: float, side: str = 
     return constant if history is None else getattr(history, side)(time)
 
 
+def fastest_of_run(scene: Scene) -> float:
+    """Return the largest entrainment or sliding speed [m/s] of a run, without its sign, at its `sampled_times`."""
+    speed = scene.motion.entrainment_speed
+    moments = [(time, side) for time in sampled_times(scene) for side in ("before", "at")]
+    entraining = (abs(value_at(scene, "speed", speed, *moment)) for moment in moments)
+    sliding = (abs(sliding_at(scene, *moment)) for moment in moments)
+    return max(*entraining, *sliding)
+
+
 @dataclass(frozen=True)
 class WarmInlet(History):
     """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The inlet

@@ -1,5 +1,6 @@
 """Runs in time: the interval and the power loss of every output and of the mean, against steady answers and sums."""
 
+import csv
 import math
 import re
 from dataclasses import replace
@@ -11,6 +12,7 @@ from scene_text import paper_scene
 from scipy.optimize import brentq
 
 import lubfric
+from lubfric._base import read_table
 from lubfric.models.load_sharing import MomentResponse
 from lubfric.output import describe_scene, main
 from lubfric.output.report import history_answer
@@ -248,6 +250,15 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
     assert "under 2 to 4 N" in page and "total load 2 to 4 N over the run" in " ".join(page.split())
     assert "It is negative at" in page and "where f is nearest to its mean" in page
     assert re.findall(r"at rest +- +(\S+)", page) == ["0"] * 3  # power loss at the start, the reversal and the end
+    with open(tmp_path / "a" / "out" / "history.csv", newline="") as file:
+        f = [row["coefficient [-]"] for row in csv.DictReader(file)]
+    assert [i for i, cell in enumerate(f) if not cell] == [0, 10, 20] and all(map(float, filter(None, f)))
+    (stated,) = re.findall(r"The largest f is (\S+)", said)
+    assert abs(float(stated)) == pytest.approx(max(abs(float(cell)) for cell in f if cell), rel=0.01)
+    (last,) = (line for line in said.splitlines() if "t = 0.01 of 0.01 s" in line)
+    assert "t = 0.01 of 0.01 s, at rest: no f, F_C = " in last and "U = " not in last
+    history = read_table(tmp_path / "a" / "out" / "history.csv")
+    assert np.flatnonzero(np.isnan(history["coefficient"])).tolist() == [0, 10, 20]
     assert "The run is not periodic" in page and "the mean contains the start" in page
     assert " % of the estimated steps: t = 0.01 of 0.01 s" in said and "without the model-form" not in said + page
 
