@@ -99,6 +99,13 @@ IN_PURE_ROLLING = (
 # Where the points are listed that a sentence has no room for.
 ALL_IN_TABLE = " The column validity of study.csv has all of them."
 
+# Columns of a table of operating points from which others follow, and these.
+DERIVED_COLUMNS = {
+    ("u1", "u2"): (SLIDE_ROLL_RATIO_KEY, "speed"),
+    ("sliding_speed",): (SLIDE_ROLL_RATIO_KEY,),
+    ("R1", "R2"): ("bodies.radius",),
+}
+
 # Where an operating point lies.
 COORDINATE = (POSITION, "angle", "time")
 
@@ -337,27 +344,11 @@ def _table(result: StudyResult, rows: int) -> str:
     picked = _picked(columns, rows)
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
-    constant = [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
-    for name in (*(name for name in result.coords if name not in constant), *REPORTED_NUMBERS):
-        values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
-        quantity = COLUMNS.get(name)
-        heads.append(quantity.label if quantity else name)
-        if values.dtype.kind != "f":
-            cells.append([str(value) for value in values])
-            continue
-        si = quantity.unit if quantity else "-"
-        if name == "lubricant.temperature":
-            values = values - float(ZERO_CELSIUS)
-            si = "°C"
-        unit = si if si == "°C" else unit_of_largest(values.tolist(), si)
-        heads[-1] += f" [{printed(unit)}]" if printed(unit) else ""
-        pair = REPORTED_NUMBERS.get(name)
-        low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
-        if si == "°C":
-            cells.append([f"{value:.4g}" for value in values])
-            continue
-        digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
-        cells.append([_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)])
+    omitted = {*_constant(result, count), *_derived(result)}
+    for name in (*(name for name in result.coords if name not in omitted), *REPORTED_NUMBERS):
+        (head, texts) = _column(result, columns, name, picked)
+        heads.append(head)
+        cells.append(texts)
     inputs_alone = len(heads) - len(REPORTED_NUMBERS)
     why = f'<td colspan="{len(REPORTED_NUMBERS)}" class="warning">'
     failures = set(result.failures)
@@ -369,21 +360,64 @@ def _table(result: StudyResult, rows: int) -> str:
     return table(heads, body)
 
 
+def _column(
+    result: StudyResult, columns: dict[str, np.ndarray], name: str, picked: np.ndarray
+) -> tuple[str, list[str]]:
+    """Return the heading of the column ``name`` with its unit, and its cells at the points that are ``picked``."""
+    values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
+    quantity = COLUMNS.get(name)
+    head = quantity.label if quantity else name
+    if values.dtype.kind != "f":
+        return head, [str(value) for value in values]
+    if name == "lubricant.temperature":
+        return f"{head} [°C]", [f"{value:.4g}" for value in values - float(ZERO_CELSIUS)]
+    si = quantity.unit if quantity else "-"
+    unit = unit_of_largest(values.tolist(), si)
+    head += f" [{printed(unit)}]" if printed(unit) else ""
+    pair = REPORTED_NUMBERS.get(name)
+    low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
+    digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
+    return head, [_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)]
+
+
+def _constant(result: StudyResult, count: int) -> list[str]:
+    """Return what is varied by name alone: it has one value at all of ``count`` points."""
+    return [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
+
+
+def _derived(result: StudyResult) -> list[str]:
+    """Return what is varied that follows from other columns of a table of operating points, which are shown instead."""
+    return [
+        name
+        for name in result.coords
+        if any(name in derived and set(given) <= set(result.coords) for given, derived in DERIVED_COLUMNS.items())
+    ]
+
+
 def _details(result: StudyResult, rows: int) -> str:
-    """Return a folded table of the points with the peak Hertz pressure, temperatures, and the parts of the error of f."""
+    """Return a folded table of the points with what follows from other columns, the peak Hertz pressure, temperatures, and
+    the parts of the error of f."""
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = _scene_of_each(result)
+    constant = _constant(result, len(scenes))
+    derived = [_column(result, columns, name, picked) for name in _derived(result) if name not in constant]
     parts = _parts_of_error(columns, picked, [scenes[row] for row in picked])
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
     body = []
     for i, row in enumerate(picked):
-        cells = [f"{row + 1}", worded(peak_hertz_pressure(scenes[row]), "Pa")]
+        cells = [f"{row + 1}", *(texts[i] for _, texts in derived), worded(peak_hertz_pressure(scenes[row]), "Pa")]
         cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
         size = abs(float(columns["coefficient"][row]))
         cells += [_error_in_words(float(part[i]), size) for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
-    heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
+    heads = [
+        "no.",
+        *(head for head, _ in derived),
+        "peak Hertz pressure",
+        "flash temperature rise [K]",
+        "film temperature rise [K]",
+    ]
     heads += parts
     about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
     notes = [RISE_NOTE] if np.isfinite(rises[1]).any() else []

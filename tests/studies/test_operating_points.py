@@ -9,7 +9,7 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main, report
-from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target, why_no_rises
+from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target, study_page, why_no_rises
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
@@ -400,6 +400,20 @@ def test_what_follows_from_a_varied_temperature_is_no_common_input():
 def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(error, said):
     texts = model_error_above_target(stand_in(error))
     assert [text[: len(words)] for text, words in zip(texts, said)] == said and len(texts) == len(said)
+
+
+def test_the_table_of_a_report_has_what_was_given_and_folds_what_follows_from_it(result):
+    """The slide-roll ratio follows from the speeds of both surfaces."""
+    page = study_page(result, {}, []).decode()
+    (shown, folded) = (
+        {*re.findall(r"<th(?: [^>]*)?>(.*?)</th>", part)}
+        for part in page.partition("<h2>Operating points</h2>")[2].split("<details>")[:2]
+    )
+    assert "slide-roll ratio" in folded - shown
+    assert {"lambda ratio", "asperity load ratio F_C/F_T"} <= shown
+    assert any(head.startswith("speed of surface 1 [") for head in shown)
+    ratios = re.findall(r'data-label="slide-roll ratio"[^>]*>([^<]*)', page)
+    assert [float(ratio) for ratio in ratios] == [float(f"{(b - a) / (0.5 * (a + b)):.4g}") for _, _, a, b, _ in ROWS]
 
 
 def test_a_model_form_error_where_f_is_near_zero_is_apart_and_in_f():
