@@ -346,9 +346,9 @@ def _table(result: StudyResult, rows: int) -> str:
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     omitted = {*_constant(result, count), *_derived(result)}
     for name in (*(name for name in result.coords if name not in omitted), *REPORTED_NUMBERS):
-        (head, texts) = _column(result, columns, name, picked)
+        (head, column) = _column(result, columns, name, picked)
         heads.append(head)
-        cells.append(texts)
+        cells.append(column)
     inputs_alone = len(heads) - len(REPORTED_NUMBERS)
     why = f'<td colspan="{len(REPORTED_NUMBERS)}" class="warning">'
     failures = set(result.failures)
