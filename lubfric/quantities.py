@@ -115,6 +115,7 @@ class Quantities(Generic[T]):
         "N",
         "rolling part of the shear force",
         error="shear",
+        note="where roughness moves with the pressure on the flanks of surface 2, which scatters about 0",
         is_friction=True,
         is_left_by_cells=True,
         is_controlled=True,

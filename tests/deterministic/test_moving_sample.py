@@ -77,7 +77,14 @@ def sample_of(seed, moments=120, places=128):
     summits = summits / scale
     friction = 0.05 + 0.01 * summits + 0.2 * (load - 1) + 0.003 * chance / scale
     return TimeAndPlace(
-        friction=friction, load=load, contact_load=load, summits=summits, travelled=0.1, spacing=2e-6, mean_load=1.0
+        friction=friction,
+        load=load,
+        contact_load=load,
+        couette=load,
+        summits=summits,
+        travelled=0.1,
+        spacing=2e-6,
+        mean_load=1.0,
     )
 
 

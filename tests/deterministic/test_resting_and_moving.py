@@ -36,6 +36,7 @@ def test_scatter_of_a_resting_body_is_that_between_places_however_long_it_is_fol
             friction=friction,
             load=load + 1e-9 * rng.normal(size=friction.shape),
             contact_load=load,
+            couette=load,
             summits=np.zeros_like(friction),
             travelled=0.0,
             spacing=1.0,

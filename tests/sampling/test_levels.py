@@ -127,6 +127,36 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         assert bool(result.pieces) == (acf == "exponential")
 
 
+def test_where_shorter_cells_lower_f_no_part_of_it_changes_its_sign(monkeypatch):
+    """Where asperities carry the load, f of pieces falls by .6 % on cells of half the length and their loads do not; where
+    the film does, its force has all of it."""
+    prepared = lubfric.prepare(FINE)
+    load = FINE.bodies.load
+    f_b = FINE.bodies.boundary_friction_coefficient
+    for speed, is_separated in ((3e-4, False), (0.3, True)):
+        solved = solve_strip(FINE, prepared.sample.strip(0), speed, map_coarsening=(4, 4))
+        f = solved.result.coefficient
+
+        def on(dx, solved=solved, f=f):
+            changed = f * (1 + (dx**2 - 3.6**2) / 40**2)
+            return replace(solved, result=replace(solved.result, coefficient=changed, spacing=(1e-6 * dx,) * 2))
+
+        pair = StripOnTwoGrids(resolved=solved, longer=on(7.2))
+        monkeypatch.setattr(levels, "solve_pair", lambda *_, pair=pair, **__: pair)
+        ladder = shorter.Piece([on(7.2), on(3.6), on(1.8)])
+        monkeypatch.setattr(shorter, "_refined", lambda *_, ladder=ladder, **__: ladder)
+        result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), speed, DeterministicModel()).levels
+        numbers = result.numbers
+        assert result.pieces and numbers["coefficient"] == pytest.approx(on(1.8).result.coefficient, rel=1e-9)
+        parts = numbers["boundary_force"] + numbers["couette_force"] + numbers["rolling_force"]
+        assert parts == pytest.approx(load * numbers["coefficient"], rel=1e-12)
+        assert numbers["boundary_force"] == pytest.approx(f_b * numbers["contact_load"], rel=1e-12)
+        assert numbers["contact_load"] + numbers["film_load"] == pytest.approx(load, rel=1e-12)
+        assert numbers["couette_force"] > 0
+        assert numbers["rolling_force"] == pytest.approx(solved.result.rolling * FINE.bodies.width, rel=1e-9)
+        assert (numbers["contact_load"] < 0.1 * load) == is_separated
+
+
 def test_processes_change_no_bit(prepared, found):
     """Strips, and ends of input ranges, are solved by two processes as by one."""
     assert found.decision.strips > 2

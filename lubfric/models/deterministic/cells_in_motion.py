@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ...quantities import names_with
-from ..shared import Prepared, is_smooth_over_cells
+from ..shared import Prepared, is_smooth_over_cells, with_rest_rolling
 from .result import DeterministicResult
 from .rough_bodies import map_of_strip
 from .strip import StripSolution
@@ -202,14 +202,17 @@ def sliding_share_of(results: Sequence[DeterministicResult]) -> float:
     return 1.0 - rolling / f if f else 1.0
 
 
-def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, float]:
+def changed_as_expected(numbers: dict[str, float], change: float, rolling: float) -> dict[str, float]:
     """Return ``numbers`` of a point with the sliding part of f, its forces and the asperity load changed by this relative
-    ``change``."""
+    ``change``; where the load does not suffice for that, the film's force has all of it. ``rolling`` [N]: the part of f on the
+    strips that does not slide."""
     if not change:
         return numbers
-    new = numbers | {name: (1.0 + change) * numbers[name] for name in names_with("follows_sliding")}
     load = numbers["film_load"] + numbers["contact_load"]
-    new["shear_force"] = numbers["shear_force"] + change * numbers["couette_force"]
-    new["coefficient"] = numbers["coefficient"] + change * (numbers["couette_force"] + numbers["boundary_force"]) / load
-    new["film_load"] = load - new["contact_load"]
-    return new
+    sliding = load * numbers["coefficient"] - rolling
+    changed = numbers | {"coefficient": numbers["coefficient"] + change * sliding / load}
+    if (1.0 + change) * numbers["contact_load"] > load:
+        return with_rest_rolling(changed | {"couette_force": numbers["couette_force"] + change * sliding}, load)
+    changed |= {name: (1.0 + change) * numbers[name] for name in names_with("follows_sliding")}
+    changed["film_load"] = load - changed["contact_load"]
+    return with_rest_rolling(changed, load)

@@ -38,13 +38,15 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:
-    """Return ``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``."""
+    """Return ``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``. It takes its share of f from
+    the sliding part of the film's force, or from the rolling part where that is less."""
     f = numbers["coefficient"]
     lost = abs(f) * heat.change * scene.bodies.load
+    part = "couette_force" if lost <= numbers["couette_force"] else "rolling_force"
     return numbers | {
         "coefficient": f - lost / scene.bodies.load,
         "shear_force": numbers["shear_force"] - lost,
-        "couette_force": numbers["couette_force"] - lost,
+        part: numbers[part] - lost,
         "inlet_film_factor": heat.inlet_film_factor,
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film_rise,

@@ -38,7 +38,8 @@ from ..shared import (
     block_error,
     strips_for_error,
     student,
-    with_forces_of_film,
+    with_divided_sliding,
+    with_rest_rolling,
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
 from .counted_work import MOST_WORK_OF_POINT
@@ -118,6 +119,7 @@ class Levels:
     ----------
     numbers : of the deterministic model on an infinite line contact, by name
     errors : their relative standard errors, by name
+    rolling_of_strips : rolling part of the friction force [N], mean of the strips; what f has beside it are its sliding parts
     by_film : relative changes of f by half and by twice the boundary film
     by_flow : relative change of f by another law of the flow
     by_inlet : relative change of f without the heat of the inlet
@@ -138,6 +140,7 @@ class Levels:
 
     numbers: dict[str, float]
     errors: dict[str, float]
+    rolling_of_strips: float
     by_film: tuple[float, ...]
     by_flow: float
     by_inlet: float
@@ -255,9 +258,13 @@ def two_levels(
     required_alone = required(alone)
     if control is not None and count <= control.count:
         estimate = _estimate_at_rest(prepared, pairs, control)
-        has_possible_load = 0 <= estimate.numbers["contact_load"] <= prepared.scene.bodies.load
+        load = prepared.scene.bodies.load
+        contact_load = estimate.numbers["contact_load"]
+        has_possible_load = 0 <= contact_load <= load
         if has_possible_load and (required_with_control := required(estimate)) <= min(required_alone, control.count):
-            return estimate, max(required_with_control, count)
+            controlled = estimate.numbers | {"film_load": load - contact_load}
+            numbers = with_divided_sliding(controlled, alone.numbers, load)
+            return replace(estimate, numbers=numbers), max(required_with_control, count)
     return alone, max(required_alone, count)
 
 
@@ -273,11 +280,12 @@ def levels_of(
     change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
-    as_expected = changed_as_expected(estimate.numbers, shorter.change)
+    results = [pair.resolved.result for pair in pairs]
+    rolling = mean(result.rolling for result in results) * prepared.scene.bodies.width
+    as_expected = changed_as_expected(estimate.numbers, shorter.change, rolling)
     of_third_level = [(piece.on_cells_of_strips, piece.on_shortest_cells) for piece in shorter.pieces]
     third = changed_by_pieces(prepared, as_expected, of_third_level)
     fourth = changed_by_pieces(prepared, third, [shorter.shortest.last_two] if shorter.shortest else [])
-    results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error_of_f, replace(shorter.sampling_error, value=shorter.sampling_error.value * f))
@@ -300,6 +308,7 @@ def levels_of(
     return Levels(
         numbers=numbers,
         errors=errors,
+        rolling_of_strips=rolling,
         by_film=films,
         by_flow=change_by_flow(at_rest, thinned_less(at_rest.problem.lubricant)),
         by_inlet=change_by_flow(at_rest, prepared.scene.lubricant),
@@ -385,7 +394,12 @@ def samples_over_time(pairs: Sequence[StripOnTwoGrids]) -> list[TimeAndPlace]:
 
 
 def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
-    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`)."""
+    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`).
+
+    It corrects f, the asperity load and the sliding part of the film's force each by its own dependence on the summits,
+    which for f is the sum of those of its parts. The rest is of the rolling part: the pressure on the flanks of surface 2
+    scatters most where asperities carry the load. A part whose corrected value is not possible is that of the strips.
+    """
     rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     samples = samples_over_time(pairs)
@@ -393,6 +407,7 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
     rubbing = mean_over_blocks(samples, "contact_load", width, control)
+    couette = mean_over_blocks(samples, "couette", width, control)
     load = prepared.scene.bodies.load
     if numbers["contact_load"] > 0 and 0 < rubbing.value < 1:  # else too little rubs: the mean of the strips
         contact_load = rubbing.value * load
@@ -400,8 +415,10 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
         for name in names_with("follows_asperity_load"):
             numbers[name] *= times
         numbers["film_load"] = load - contact_load
+    if couette.value > 0:
+        numbers["couette_force"] = couette.value * load
     numbers["coefficient"] = friction.value
-    numbers = with_forces_of_film(numbers, load)
+    numbers = with_rest_rolling(numbers, load)
     between = friction.plain.value * math.sqrt(len(pairs))
     by_summits = friction.correction / friction.value
     return TwoLevelEstimate(

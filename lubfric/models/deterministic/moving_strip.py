@@ -96,9 +96,10 @@ SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_fi
 # Inputs that change the shear stress of a film, but very little its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = tuple(f"lubricant.{law.key}" for law in (*FLOW_LAWS, *LIMIT_LAWS))
 
-# Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and two of every place along y.
+# Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and three of every place along y.
 _TYPES = get_type_hints(DeterministicResult)
-AVERAGED = (*(f.name for f in fields(DeterministicResult) if _TYPES[f.name] is float), "load_at", "friction_at")
+AT_PLACES = ("load_at", "friction_at", "couette_at")
+AVERAGED = (*(f.name for f in fields(DeterministicResult) if _TYPES[f.name] is float), *AT_PLACES)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -458,6 +459,7 @@ def _places_of(records: Sequence[MomentRecord], result: DeterministicResult, tra
         friction=over_time("friction_at"),
         load=over_time("load_at"),
         contact_load=over_time("contact_load_at"),
+        couette=over_time("couette_at"),
         summits=over_time("summits_at"),
         travelled=travelled,
         spacing=result.spacing[1],

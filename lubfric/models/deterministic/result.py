@@ -79,8 +79,8 @@ class DeterministicResult(Renamed, ModelDetails):
         of all roughness
     split : the load on rubbing cells, and its parts
     load : of the contact
-    load_at, friction_at : load and friction of every place along y (ny,); their means are ``load`` and ``coefficient`` times
-        that
+    load_at, friction_at, couette_at : load, friction and shear of the film by the sliding of every place along y (ny,); their means
+        are ``load``, ``coefficient`` times that, and ``couette``
     speed : U [m/s]
     flow_film : flow/U [m]
     min_gap, mean_gap, central_gap : smallest gap, mean over the Hertz strip of the load, and mean at x = 0 [m]
@@ -121,6 +121,7 @@ class DeterministicResult(Renamed, ModelDetails):
     load: float
     load_at: np.ndarray
     friction_at: np.ndarray
+    couette_at: np.ndarray
     speed: float
     flow_film: float
     min_gap: float
@@ -311,6 +312,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         load=problem.load,
         load_at=p.sum(axis=0) * dx + inlet.load,
         friction_at=sheared.friction,
+        couette_at=sheared.couette,
         speed=problem.speed,
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),

@@ -25,7 +25,7 @@ from ..shared import (
     contact_on_piece,
     is_smooth_over_cells,
     speed_of,
-    with_forces_of_film,
+    with_divided_sliding,
 )
 from .cells_in_motion import cells_of_strips
 from .counted_work import MOST_WORK_OF_POINT
@@ -338,7 +338,7 @@ def changed_by_pieces(
     new["film_load"] = load - new["contact_load"]
     if numbers["contact_load"] > 0:
         new["boundary_force"] = numbers["boundary_force"] * new["contact_load"] / numbers["contact_load"]
-    new = with_forces_of_film(new, load)
+    new = with_divided_sliding(new, numbers, load)
     if prepared.surface.sq > 0:
         new["film_to_roughness_ratio"] = new["central_film"] / prepared.surface.sq
     return new

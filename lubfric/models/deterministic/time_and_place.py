@@ -44,7 +44,8 @@ class Places(NamedTuple):
 class TimeAndPlace:
     """Numbers of moments that follow each other, at all places along y (n, ny).
 
-    ``friction``, ``load``, ``contact_load`` [N/m]: the last of what rubs with f_b; ``summits`` [m]: the control.
+    ``friction``, ``load``, ``contact_load``, ``couette`` [N/m]: the third of what rubs with f_b, the last of the film that the
+    sliding shears; ``summits`` [m]: the control.
     ``travelled``: half-widths between two moments, of the film or the slowest rough body; ``spacing`` [m]: along y.
     ``mean_load`` [N/m]: of all places at every moment.
     """
@@ -52,6 +53,7 @@ class TimeAndPlace:
     friction: np.ndarray
     load: np.ndarray
     contact_load: np.ndarray
+    couette: np.ndarray
     summits: np.ndarray
     travelled: float
     spacing: float
@@ -64,6 +66,7 @@ class TimeAndPlace:
             friction=self.friction[:, :kept],
             load=self.load[:, :kept],
             contact_load=self.contact_load[:, :kept],
+            couette=self.couette[:, :kept],
             summits=self.summits[:, :kept],
             travelled=self.travelled,
             spacing=self.spacing,

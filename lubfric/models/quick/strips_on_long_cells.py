@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..._base import work_left
+from ...quantities import FRICTION_FORCES
 from ...scene import Scene, has_moving_roughness
 from ..deterministic import (
     UNKNOWN_SLOPE,
@@ -32,7 +33,7 @@ from ..shared import (
     is_smooth_over_cells,
     largest_of,
     sides_of_parts,
-    with_forces_of_film,
+    with_divided_sliding,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_cells import (
@@ -114,7 +115,7 @@ class StripsOnLongCells:
         if self.scene.motion.slide_roll_ratio == 0:
             return numbers
         load = self.scene.bodies.load
-        rolling = numbers["rolling_force"]
+        rolling = self.levels.rolling_of_strips
         force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
         f_b = self.scene.bodies.boundary_friction_coefficient
         stress_of_film = numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else f_b
@@ -123,7 +124,9 @@ class StripsOnLongCells:
         if contrast > LEAST_CONTRAST * f_b:
             load_ratio = min(max(load_ratio + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
         changed = _with_asperity_load_ratio(self.scene, numbers, load_ratio) | {"coefficient": force / load}
-        return with_forces_of_film(changed, load)
+        answer = with_divided_sliding(changed, numbers, load)
+        forces = {name: answer[name] for name in ("coefficient", *FRICTION_FORCES)}
+        return _with_asperity_load_ratio(self.scene, numbers, answer["contact_load"] / load) | forces
 
     @property
     def bounds(self) -> Sides:
@@ -131,7 +134,7 @@ class StripsOnLongCells:
         part."""
         f = self.numbers["coefficient"]
         is_rolling = self.scene.motion.slide_roll_ratio == 0
-        rolling = f if is_rolling else self.numbers["rolling_force"] / self.scene.bodies.load
+        rolling = f if is_rolling else self.levels.rolling_of_strips / self.scene.bodies.load
         sliding = abs(f - rolling)
         if f == 0:
             return Sides(math.inf, math.inf)

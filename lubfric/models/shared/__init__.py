@@ -40,7 +40,7 @@ from .checks_before import (
     why_sample_too_short,
     why_too_few_blocks,
 )
-from .control_variate import ControlVariate, with_forces_of_film
+from .control_variate import ControlVariate, with_divided_sliding, with_forces_of_film, with_rest_rolling
 from .decision import Decision
 from .film_speed import film_and_exponents, speed_of
 from .heat import (

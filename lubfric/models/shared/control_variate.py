@@ -43,3 +43,32 @@ def with_forces_of_film(numbers: dict[str, T], load: float) -> dict[str, T]:
     times the ``load`` [N], and with its sliding part."""
     shear_force = load * numbers["coefficient"] - numbers["boundary_force"]
     return numbers | {"shear_force": shear_force, "couette_force": shear_force - numbers["rolling_force"]}
+
+
+def with_divided_sliding(numbers: dict[str, float], before: dict[str, float], load: float) -> dict[str, float]:
+    """Return ``numbers``, of a point that has another ``coefficient`` than ``before``, with friction forces that add up to it
+    times the ``load`` [N].
+
+    The film has what the asperity contacts leave. Where that would be against the sliding friction ``before``, asperity load and
+    forces of asperities and film change in proportion to it. Where there was none, or the load does not suffice, the film keeps
+    its sliding part and the rolling part changes.
+    """
+    changed = with_forces_of_film(numbers, load)
+    sliding = changed["boundary_force"] + changed["couette_force"]
+    sliding_before = before["boundary_force"] + before["couette_force"]
+    if changed["couette_force"] * sliding_before > 0:
+        return changed
+    growth = sliding / sliding_before if sliding_before else 0.0
+    contact_load = growth * before["contact_load"]
+    if growth > 0 and contact_load <= load:
+        changed |= {name: growth * before[name] for name in ("boundary_force", "couette_force")}
+        changed |= {"contact_load": contact_load, "film_load": load - contact_load}
+        return changed | {"shear_force": changed["couette_force"] + changed["rolling_force"]}
+    return with_rest_rolling(numbers | {"couette_force": before["couette_force"]}, load)
+
+
+def with_rest_rolling(numbers: dict[str, float], load: float) -> dict[str, float]:
+    """Return ``numbers`` with the rolling part that makes all friction forces add up to ``coefficient`` times the ``load``
+    [N], and with the shear force of the film."""
+    shear_force = load * numbers["coefficient"] - numbers["boundary_force"]
+    return numbers | {"shear_force": shear_force, "rolling_force": shear_force - numbers["couette_force"]}

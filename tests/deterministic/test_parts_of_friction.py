@@ -1,0 +1,68 @@
+"""The forces of a point: they add up to f, each within what its load allows, whatever corrected f after the strips were solved.
+Oracles: balances of forces and loads, Amontons' law on asperities, and the signs of stresses by sliding."""
+
+import pytest
+
+import lubfric
+
+NEEDLE = lubfric.load_scene("paper").with_(
+    bodies={
+        "radius": 1.395e-3,
+        "width": 20e-3,
+        "load": 600.0,
+        "e_prime": 2.3e11,
+        "hardness": 7e9,
+        "boundary_friction_coefficient": 0.12,
+    },
+    lubricant={
+        "viscosity": 0.01,
+        "pressure_viscosity_coefficient": 1.5e-8,
+        "viscosity_law": "barus",
+        "eyring_stress": 5e6,
+    },
+    motion={"slide_roll_ratio": 0.02},
+    surface={"sq": 0.25e-6, "correlation_length": (40e-6, 4e-6), "seed": 8},
+    counterface={"sq": 0.12e-6, "correlation_length": (40e-6, 4e-6)},
+    contact={"shape": (128, 128), "spacing": (4e-6, 1e-6)},
+    numerics={"model": "quick"},
+)
+DETERMINISTIC = {"model": "deterministic"}
+SMOOTHER = {"surface": {"sq": 0.025e-6}, "counterface": {"sq": 0.012e-6}}
+RESTING = lubfric.load_scene("paper").with_(
+    contact={"shape": (40, 40), "spacing": 3.6e-6},
+    lubricant={"limiting_stress_coefficient": "f_b"},
+    numerics=DETERMINISTIC | {"sampling_tolerance": 0.05, "model_tolerance": 0.5},
+)
+PURE_ROLLING = {"slide_roll_ratio": 0.0}
+
+# Each: the scene, the speed, and between which parts of the load asperities carry.
+POINTS = {
+    "asperities, roughness moves": (NEEDLE, 0.05, (0.97, 1.0)),
+    "asperities, roughness moves, on short cells": (NEEDLE.with_(numerics=DETERMINISTIC), 0.05, (0.97, 1.0)),
+    "asperities and film, roughness moves": (NEEDLE, 1.0, (0.9, 0.99)),
+    "film, roughness moves": (NEEDLE.with_(**SMOOTHER), 2.0, (0.0, 0.3)),
+    "pure rolling, roughness moves": (NEEDLE.with_(motion=PURE_ROLLING), 1.0, (0.9, 1.0)),
+    "asperities, roughness rests": (RESTING, 1e-3, (0.9, 1.0)),
+    "film, roughness rests": (RESTING, 0.1, (0.0, 0.3)),
+    "pure rolling, roughness rests": (RESTING.with_(motion=PURE_ROLLING), 0.01, (0.3, 1.0)),
+}
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_forces_add_up_to_f_within_what_their_loads_allow(name):
+    scene, speed, (least, most) = POINTS[name]
+    result = lubfric.friction(scene, speed)
+    load = scene.bodies.load
+    slides = scene.motion.slide_roll_ratio > 0
+    f_b = scene.bodies.boundary_friction_coefficient if slides else 0.0
+    assert result.coefficient * load == pytest.approx(result.boundary_force + result.shear_force, rel=1e-12)
+    parts = result.couette_force + result.rolling_force
+    assert result.shear_force == pytest.approx(parts, rel=1e-12, abs=1e-12 * result.coefficient * load)
+    assert result.boundary_force == pytest.approx(f_b * result.contact_load, rel=1e-12)
+    assert result.contact_load + result.film_load == pytest.approx(load, rel=1e-12)
+    assert least * load <= result.contact_load <= most * load
+    assert result.film_load >= 0
+    if slides:
+        assert 0 < result.couette_force < f_b * result.film_load  # the mean stress of these films is below f_b p
+    else:
+        assert result.couette_force == 0
