@@ -23,4 +23,10 @@ from .result import FrictionResult, cite_together, cited
 from .solve_to_tolerance import solve_to_tolerance
 from .uncertainty import PARTS, Uncertainty, UncertaintyCurve, curve_of, interval
 from .uncertainty_of_f import uncertainty_of
-from .work_of_point import PointWorkEstimate, estimated_work_of_point, expected_violations, seconds_of_points
+from .work_of_point import (
+    NOT_MEASURED,
+    PointWorkEstimate,
+    estimated_work_of_point,
+    expected_violations,
+    seconds_of_points,
+)

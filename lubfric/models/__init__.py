@@ -14,4 +14,4 @@ from .model_answer import ContactFields, ModelAnswer, ModelDetails
 from .prepare import prepare, prepare_on_maps, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
 from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to
-from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
+from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, MeasuredTime, SharedWork, WorkEstimate

@@ -18,7 +18,7 @@ from ..scene import Scene
 from ..surface import Surface
 from .model_answer import ModelAnswer
 from .shared import ControlVariate, ExpectedViolations, Heat, Prepared, Violation, strips_for_error
-from .work_estimate import WorkEstimate
+from .work_estimate import MeasuredTime, WorkEstimate
 
 # The value of ``numerics.model`` that takes the cheapest model that is good enough.
 AUTO = "auto"
@@ -190,6 +190,11 @@ class Model(ABC):
         model that says nothing about its work takes the first strips in no time.
         """
         return WorkEstimate(strips=self.strips_to_begin_with(sample), seconds=0.0)
+
+    def measure_time(self, prepared: Prepared, speed: float) -> MeasuredTime | None:
+        """Solve the first steps of a strip of moving roughness at ``speed`` [m/s], and return what they say of `estimate_work`; None
+        where nothing is measured."""
+        return None
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""

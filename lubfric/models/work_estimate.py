@@ -1,7 +1,7 @@
 """What a model will take at one operating point, estimated before anything is solved."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 # Whether asperities touch under an expected film, in words (`WorkEstimate.asperities`).
 ALL_TOUCH = "touching"
@@ -41,6 +41,7 @@ class WorkEstimate:
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
     longest_strip_seconds : the same if that strip has to be solved again on shorter cells
+    most_seconds : processor time [s] after which ``numerics.max_work`` ends it
     length : of the strips [m]; NaN: there is one patch
     expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
     expected_model_error : relative model-form error of f
@@ -55,7 +56,33 @@ class WorkEstimate:
     fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
     longest_strip_seconds: float = 0.0
+    most_seconds: float = math.inf
     length: float = math.nan
     expected_sampling_error: float = math.nan
     expected_model_error: float = math.nan
     asperities: str = ""
+
+    def with_strips_taking(self, times: float) -> "WorkEstimate":
+        """Return the same if moving roughness takes so many ``times`` as long."""
+        return replace(
+            self,
+            seconds=min(times * self.seconds, self.most_seconds),
+            strip_seconds=times * self.strip_seconds,
+            longest_strip_seconds=times * self.longest_strip_seconds,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredTime:
+    """What a strip of moving roughness takes, as measured on its first steps in time.
+
+    Attributes
+    ----------
+    over_expected : processor time of the strip over that of `WorkEstimate`
+    steps : number of steps in time that were measured
+    seconds : processor time [s] of the measurement
+    """
+
+    over_expected: float
+    steps: int
+    seconds: float

@@ -159,7 +159,8 @@ def info(arguments: Namespace) -> None:
     speeds = arguments.speeds
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; omit it")
-    (description, estimate) = described_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
+    chosen = speeds if speeds == "auto" else parse_speeds("--speeds", speeds)
+    (description, estimate) = described_scene(scene, chosen, measures=True)
     answer(description + "\n")
     refused(violations_by_unusual_inputs(scene), accept=scene.numerics.accept)
     if scene.transient is not None:

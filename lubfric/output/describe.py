@@ -2,19 +2,29 @@
 
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
 from ..errors import InputError
 from ..estimate import (
+    NOT_MEASURED,
     FrictionResult,
     PointWorkEstimate,
     estimated_work_of_point,
     expected_violations,
     seconds_of_points,
 )
-from ..models import ALL_TOUCH, AUTO, FEW_TOUCH, NONE_TOUCHES, model_named, models_up_to
+from ..models import (
+    ALL_TOUCH,
+    AUTO,
+    FEW_TOUCH,
+    NONE_TOUCHES,
+    MeasuredTime,
+    model_named,
+    models_up_to,
+    prepare,
+)
 from ..models.shared import (
     Assumption,
     ExpectedEffect,
@@ -53,6 +63,13 @@ SOME = 25
 
 # Speeds in the table, about. A choice: more fills the screen.
 TABLE_SPEEDS = 6
+
+# Processor time [s] of a strip of moving roughness above which `info` measures its first steps. A choice: of a shorter one that takes as
+# long as the answer.
+MEASURED_FROM = 3.0
+
+# How well a time is known that is measured on the first steps of a strip. Measured: `python -m verification.campaigns.estimates`.
+WITHIN_MEASURED = "within a factor of 2 in nine of ten cases"
 
 # Characters of a heading that is not broken. A choice, by looking at the table.
 LEAST_HEADING = 7
@@ -124,15 +141,19 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     return described_scene(scene, speeds)[0]
 
 
-def described_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> tuple[str, SceneEstimate]:
-    """Return the text of `describe_scene`, and what it states."""
+def described_scene(
+    scene: Scene, speeds: Sequence[float] | str = (), *, measures: bool = False
+) -> tuple[str, SceneEstimate]:
+    """Return the text of `describe_scene`, and what it states. ``measures``: where a strip of moving roughness takes more than
+    `MEASURED_FROM`, its first steps in time are solved, and the processor time follows from them."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
         sample = sample_of(scene)
         surface = sample.stated_map()
         check_map(scene, surface, sample.maps_before_extension[0])
-    estimate = estimate_scene(scene, sample, surface, speeds)
+    measured = _measured_times(scene, sample, surface, speeds) if measures else {}
+    estimate = estimate_scene(scene, sample, surface, speeds, measured=measured)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
@@ -158,24 +179,34 @@ def _table_in_text(rows: Sequence[tuple[str, ...]]) -> list[str]:
 
 
 def estimate_scene(
-    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str = (), ratios: Sequence[float] = ()
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speeds: Sequence[float] | str = (),
+    ratios: Sequence[float] = (),
+    *,
+    measured: Mapping[str, MeasuredTime] | None = None,
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
-    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
+    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measured``: by the name of
+    a model, what its first steps say of its time."""
     scene_speed = scene.motion.entrainment_speed
-    chosen = expected_speeds(scene, surface.sq) if isinstance(speeds, str) else speeds
-    speeds = [scene_speed] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [scene_speed]
+    speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
+    times = {name: time.over_expected for name, time in (measured or {}).items()}
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         scene_speed = max(speeds)
-    model, seconds = _model(scene, sample, surface, speeds, ratios)
+    model, seconds = _model(scene, sample, surface, speeds, ratios, times)
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved:
         beside += estimated_work_of_point(scene, sample, surface, scene_speed).fine_fields_seconds
-    cost = f"about {in_words(seconds)} of processor time for {over} ({WITHIN_WORDS})" if seconds else ""
+    within = WITHIN_WORDS
+    for time in (measured or {}).values():
+        within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
+    cost = f"about {in_words(seconds)} of processor time for {over} ({within})" if seconds else ""
     run = None
     if scene.transient is not None:
         run = estimated_run(scene, sample, surface)
@@ -227,12 +258,37 @@ def estimate_scene(
         cost=cost,
         seconds=seconds,
         command_seconds=seconds + beside,
-        table=_speed_table(scene, sample, surface, speeds),
+        table=_speed_table(scene, sample, surface, speeds, times),
         refusals=refusals,
         severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
         run=run,
     )
+
+
+def _speeds_of(scene: Scene, surface: Surface, speeds: Sequence[float] | str) -> list[float]:
+    """Return ``speeds`` [m/s]; "auto": about those that a curve would choose; (): those of the ``scene``."""
+    chosen = expected_speeds(scene, surface.sq) if isinstance(speeds, str) else speeds
+    return list(chosen) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+
+
+def _measured_times(
+    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str
+) -> dict[str, MeasuredTime]:
+    """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its time; {}: no
+    strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
+    if scene.transient is not None:
+        return {}
+    moving = sorted({abs(u) for u in _speeds_of(scene, surface, speeds) if u != 0})
+    points = [
+        estimated_work_of_point(scene, sample, surface, speed) for speed in moving[:: max(1, len(moving) // SOME)]
+    ]
+    slow = [point for point in points if point.model.has_slow_strips and point.slow_strip_seconds > MEASURED_FROM]
+    if not slow:
+        return {}
+    longest = max(slow, key=lambda point: point.seconds)
+    measured = longest.model.measure_time(prepare(scene), longest.speed)
+    return {} if measured is None else {longest.model.name: measured}
 
 
 def _expected_of_models(
@@ -267,10 +323,15 @@ def _plan(scene: Scene, sample: Sample, surface: Surface) -> str:
 
 
 def _model(
-    scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios: Sequence[float]
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speeds: list[float],
+    ratios: Sequence[float],
+    times: Mapping[str, float],
 ) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
-    of them (`lubfric.estimate.friction`; 0: not known here)."""
+    of them (`lubfric.estimate.friction`; 0: not known here). ``times``: as ``measured`` of `estimated_work_of_point`."""
     name = scene.numerics.model
     if scene.transient is not None:
         run = run_model_of(scene)
@@ -282,7 +343,7 @@ def _model(
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    forecasts = [estimated_work_of_point(at, sample, surface, speed) for at, speed in points]
+    forecasts = [estimated_work_of_point(at, sample, surface, speed, times) for at, speed in points]
     strip = max((one.slow_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
@@ -352,9 +413,12 @@ def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[s
     return f"{top}; {course}; {cost}", lines
 
 
-def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:
+def _speed_table(
+    scene: Scene, sample: Sample, surface: Surface, speeds: list[float], times: Mapping[str, float] = NOT_MEASURED
+) -> list[tuple[str, ...]]:
     """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
-    the summits touch, and what the sample costs; of a run in time `_moment_table`."""
+    the summits touch, and what the sample costs; of a run in time `_moment_table`. ``times``: as ``measured`` of
+    `estimated_work_of_point`."""
     if scene.transient is not None:
         return _moment_table(scene, sample, surface)
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
@@ -362,7 +426,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     if sample.is_resolved:
         table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
-        one = estimated_work_of_point(scene, sample, surface, speed)
+        one = estimated_work_of_point(scene, sample, surface, speed, times)
         film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:
             film = _film_in_words(scene, surface, speed, one.asperities)

@@ -7,7 +7,7 @@ not solved on cells). `maps` makes, reads and prepares the height maps, `windows
 them, `cells` finds the length of the cells, and `contacts` turns the keys of a scene into a contact of `lubfric.contact`.
 """
 
-from .cells import Cells, length_of_rough_contact
+from .cells import Cells, length_of_rough_contact, longest_cell_in_motion
 from .choose import requests_patch, sample_of, takes_strips
 from .contract import PIECE_LENGTH, Sample
 from .maps import (

@@ -188,6 +188,11 @@ class Sample(ABC):
         return self.stated_map()
 
     @property
+    def sq(self) -> float:
+        """Sq [m] of the surface: of all of a measured map, or as it is generated."""
+        return self.whole_map.sq
+
+    @property
     def maps_before_extension(self) -> tuple[Surface, ...]:
         """The map of each rough body, or the only one of all, before it is continued by its mirror image."""
         return self.bodies or (self.whole_map,)

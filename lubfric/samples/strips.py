@@ -25,6 +25,7 @@ from .cells import (
     cells_of_a_box,
     choose_cells,
     correlation_lengths,
+    half_width_to_resolve,
     length_or_half,
     no_cells,
     reach_of,
@@ -132,6 +133,10 @@ class GeneratedStrips(FieldsOnly, Sample):
     def _known(self) -> dict[int, Surface]:
         """The first strips that were made so far, by their number, on which alone they depend."""
         return {}
+
+    @property
+    def sq(self) -> float:
+        return math.hypot(*(rough.sq or 0.0 for rough, _ in self.roughness))
 
     @property
     def _shape_of_strip(self) -> tuple[int, int]:
@@ -300,9 +305,13 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     shortest = (min(along_x), min(along_y))
     lengths = (max(along_x), max(along_y))
     if section.region == "box":
-        cells = cells_of_a_box(spacing, lengths=shortest, half_width=half_width, shape=section.shape)
+        cells = cells_of_a_box(
+            spacing, lengths=shortest, half_width=half_width_to_resolve(scene, sq), shape=section.shape
+        )
     else:
-        cells = choose_cells(spacing, shortest, half_width, max(section.shape[0] * spacing[0], reach_of(scene, sq)))
+        cells = choose_cells(
+            spacing, shortest, half_width_to_resolve(scene, sq), max(section.shape[0] * spacing[0], reach_of(scene, sq))
+        )
     narrow = WIDE_HALF_WIDTH * lengths[0] / half_width
     length_ratio = STRIP_LENGTHS if narrow > 1 else STRIP_LENGTHS / 2  # of a strip, over the correlation length along y
     if has_moving_roughness(scene):  # other places pass through the contact in time
@@ -372,7 +381,9 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
     along x, or as long as the patch of the scene or the map."""
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * surface.spacing[0]
-    cells = choose_cells(surface.spacing, lengths, scene.bodies.half_width, min(reach, surface.size[0]))
+    cells = choose_cells(
+        surface.spacing, lengths, half_width_to_resolve(scene, surface.sq), min(reach, surface.size[0])
+    )
     while cells.columns * cells.coarsening[0] > surface.shape[0]:
         cells = replace(cells, columns=cells.columns - COLUMNS_MULTIPLE)
     if cells.columns < 1:

@@ -18,10 +18,11 @@ from ..shared import (
     rolling_model_error,
     why_no_rough_film,
 )
-from ..work_estimate import WorkEstimate
+from ..work_estimate import MeasuredTime, WorkEstimate
 from .answer import answer_of
 from .counted_work import MOST_WORK_OF_POINT
-from .estimated_work import estimated_work, why_too_costly, why_too_many_cells
+from .estimated_work import estimated_work, measured_over_expected, why_too_costly, why_too_many_cells
+from .first_steps import MEASURED_STEPS, first_steps
 from .heat_of_strip import too_hot_in_words, why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
@@ -110,6 +111,18 @@ class DeterministicModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed, cheaper)
+
+    def measure_time(self, prepared: Prepared, speed: float) -> MeasuredTime | None:
+        if speed == 0 or not has_moving_roughness(prepared.scene) or self.why_unable(prepared, speed):
+            return None
+        measured = first_steps(prepared, speed)
+        if measured is None:
+            return None
+        return MeasuredTime(
+            over_expected=measured_over_expected(prepared, speed, measured),
+            steps=MEASURED_STEPS,
+            seconds=measured.seconds,
+        )
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", "kept mass") if has_film else ("deterministic model",)

@@ -25,8 +25,10 @@ from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
 from .expected_steps_in_time import StepFacts
+from .first_steps import FirstSteps
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
+from .moving import film_half_width
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach, why_too_many
 from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
@@ -222,6 +224,7 @@ def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float
         seconds=min(count * strip_seconds, ended),
         strip_seconds=strip_seconds,
         longest_strip_seconds=longest,
+        most_seconds=ended,
         length=sample.line_length(round(count)),
     )
 
@@ -390,18 +393,30 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
     return next(steps for least, steps in FINER_STEPS_HEAVY if ratio >= least)
 
 
-def _seconds_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float) -> float:
-    """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]."""
-    return IN_MOTION * moving_point_work(
+def _seconds_in_motion(
+    scene: Scene, sample: Sample, surface: Surface, speed: float, measured: FirstSteps | None = None
+) -> float:
+    """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]: expected, or as its first steps are
+    ``measured``."""
+    work = moving_point_work(
         scene,
         sample,
         surface,
         speed,
         sample_coarsening=sample_coarsening_of(scene, sample),
-        course=COURSE_OF_TIME,
-        has_usual_steps=False,
+        course=COURSE_OF_TIME if measured is None else replace(COURSE_OF_TIME, rest=measured.rest),
+        factor=None if measured is None else measured.factor,
         passed=_passed(scene, sample, sq=surface.sq, speed=speed),
     )
+    return (IN_MOTION if measured is None else measured.pace) * work
+
+
+def measured_over_expected(prepared: Prepared, speed: float, measured: FirstSteps) -> float:
+    """Return the processor time of a strip of moving roughness at ``speed`` [m/s], as its first steps are ``measured``, over what
+    is expected of it."""
+    (scene, sample, surface) = (prepared.scene, prepared.sample, prepared.surface)
+    expected = _seconds_in_motion(scene, sample, surface, speed)
+    return _seconds_in_motion(scene, sample, surface, speed, measured) / expected
 
 
 def _is_too_costly(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:
@@ -421,7 +436,7 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     cells = CellsInMotion.on_cells(
         (along * dx, across * dy),
         lengths=sample.correlation_lengths,
-        half_width=scene.bodies.half_width,
+        half_width=film_half_width(scene.line_contact(abs(speed))),
         film_ratio=4.0**EXPECTED_STEEPNESS,
         follows_lubricant=True,
         is_smooth=is_smooth_over_cells(surface.heights),
@@ -474,7 +489,7 @@ def work_on_long_cells(
             speed,
             sample_coarsening=sample_coarsening,
             course=course,
-            has_usual_steps=False,
+            factor=None,
             passed=_passed(scene, sample, sq=sq, speed=speed),
         )
         return count * ON_LONG_CELLS * work
@@ -500,14 +515,14 @@ def moving_point_work(
     *,
     sample_coarsening: tuple[float, float],
     course: ExpectedCourse = EXPECTED_COURSE,
-    has_usual_steps: bool = True,
+    factor: float | None = 1.0,
     passed: float | None = None,
 ) -> float:
     """Estimate the counted work [s] of a point at ``speed`` [m/s] on one strip of moving roughness, ends of input ranges included.
 
     The cells are ``sample_coarsening`` times as long as those of ``sample``, to which the ``surface`` belongs.
-    ``has_usual_steps``: whether a step in time takes what it does where nothing else is known, as for the choice of "auto"; else
-    what is expected of this contact (`StepFacts`). ``passed``: as of `moving_work`.
+    ``factor``: work of a step in time over that of a contact of which nothing else is known, as for the choice of "auto"; None: what
+    is expected of this contact (`StepFacts`). ``passed``: as of `moving_work`.
     """
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
@@ -521,8 +536,7 @@ def moving_point_work(
     if not sample.represents_more:  # all of the map passes
         course = replace(course, way=math.inf)
         passed = None
-    factor = 1.0
-    if not has_usual_steps:
+    if factor is None:
         factor = StepFacts.of(scene, sq=sq, speed=speed, lengths=sample.correlation_lengths, cell=fx * dx).factor
     return moving_work(
         line,

@@ -8,7 +8,7 @@ from functools import partial
 
 from ..._base import may_stay_unsolved
 from ...quantities import NUMBERS
-from ...samples import Sample
+from ...samples import Sample, longest_cell_in_motion
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..shared import Prepared
@@ -73,17 +73,17 @@ class StripOnTwoGrids:
 
 def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the cells of the deterministic model in those of the ``sample``, along x and y: 2, or 1
-    where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
-    in half the Hertz strip, or does not divide the rows of a strip. Where roughness moves,
+    where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH` in half the
+    Hertz strip, of moving roughness more than `longest_cell_in_motion`, or does not divide the rows of a strip. Where roughness moves,
     ``numerics.grid = "given"`` takes those of the scene."""
     if has_moving_roughness(scene) and scene.numerics.grid == "given":
         return 1, 1
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
-    longest = min(
-        lx / (PER_LENGTH_IN_MOTION if has_moving_roughness(scene) else PER_LENGTH),
-        scene.bodies.half_width / PER_HALF_WIDTH,
-    )
+    is_moving = has_moving_roughness(scene)
+    longest = min(lx / (PER_LENGTH_IN_MOTION if is_moving else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH)
+    if is_moving:
+        longest = min(longest, longest_cell_in_motion(scene, sample.sq))
     is_doubled_along_x = longest >= 2 * dx * (1 - 1e-9)
     is_doubled_along_y = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
     return 2 if is_doubled_along_x else 1, 2 if is_doubled_along_y else 1

@@ -181,7 +181,7 @@ def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
         film_ratio=float(row["twice"]) / float(row["half"]),
         coarse_x=float(row["coarse"]) if "x" in axis else 0.0,
         coarse_y=float(row["coarse_y"] or row["coarse"]) if "y" in axis else 0.0,
-        coarse_b=cell / contact.scene.bodies.half_width if "x" in axis else 0.0,
+        coarse_b=cell / film_half_width(contact.scene.line_contact(contact.speed)) if "x" in axis else 0.0,
         by_longer=abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0,
         follows_lubricant=row["follows"] == "1",
         is_smooth=contact.scene.surface.acf != "exponential",

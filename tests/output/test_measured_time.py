@@ -1,0 +1,79 @@
+"""The time that `lubfric info` measures on the first steps of a strip of moving roughness."""
+
+import time
+
+import pytest
+
+import lubfric
+from lubfric.estimate import estimated_work_of_point
+from lubfric.output import main
+
+NEEDLE = """
+name = "needle"
+bodies = { radii = ["1.5 mm", "20 mm"], width = "20 mm", load = "600 N", material = "100Cr6", boundary_friction_coefficient = 0.12 }
+motion = { entrainment_speed = "0.05 m/s", slip_percent = "2 %" }
+surface = { ra = "0.2 µm", correlation_length = ["40 µm", "4 µm"], acf = "gaussian" }
+contact = { shape = [64, 64], spacing = ["4 µm", "2 µm"] }
+lubricant = { grade = "ISO VG 46", viscosity_index = 95, temperature = "80 °C", eyring_stress = "5 MPa" }
+"""
+
+
+@pytest.fixture
+def needle(tmp_path):
+    file = tmp_path / "needle.toml"
+    file.write_text(NEEDLE, encoding="utf-8")
+    return file
+
+
+def seconds_of(text):
+    """The seconds that ``text`` states of its speeds."""
+    return float(text.replace("\n        ", " ").partition("cost: about ")[2].partition(" s of processor")[0])
+
+
+def test_info_measures_the_first_steps_of_rolling(needle, capsys):
+    """What it states is within a factor of 2 of what the point then takes in the same process."""
+    assert main(["info", str(needle)]) == 0
+    text = capsys.readouterr().out
+    assert "measured on 10 steps in time of a strip" in " ".join(text.split())
+    begun = time.process_time()
+    result = lubfric.friction(lubfric.load_scene(needle))
+    taken = time.process_time() - begun
+    assert result.decision.model == "deterministic"
+    assert taken / 2 <= seconds_of(text) <= 2 * taken
+
+
+def test_a_measured_time_moves_the_estimate_of_its_model_alone(needle):
+    prepared = lubfric.prepare(lubfric.load_scene(needle))
+    at = (prepared.scene, prepared.sample, prepared.surface, 0.05)
+    expected = estimated_work_of_point(*at)
+    of_other = estimated_work_of_point(*at, {"paper": 1.0})
+    doubled = estimated_work_of_point(*at, {"deterministic": 2.0})
+    assert of_other == expected
+    assert doubled.slow_strip_seconds == pytest.approx(2 * expected.slow_strip_seconds)
+    assert doubled.seconds - expected.seconds == pytest.approx(
+        expected.slow_strips * expected.slow_strip_seconds, rel=0.5
+    )
+    limited = prepared.scene.with_(numerics={"max_work": 1.0})
+    assert estimated_work_of_point(limited, *at[1:], {"deterministic": 100.0}).seconds < 2.0
+
+
+def test_info_at_rest_solves_nothing(monkeypatch, capsys):
+    """Nor where roughness moves, but a strip takes little."""
+
+    def unexpected(*given, **named):
+        raise AssertionError("something was solved")
+
+    monkeypatch.setattr("lubfric.models.deterministic.first_steps.strip_at_rest", unexpected)
+    assert main(["info", "paper"]) == 0
+    assert "measured on" not in capsys.readouterr().out
+
+
+def test_a_rolling_contact_has_cells_enough(needle):
+    """Six in the half-width of the rough contact, √(b² + 2 R Sq) = 32 µm, where roughness moves; of a body at rest two in that of
+    the Hertz strip, b = 21.5 µm."""
+    rolling = lubfric.load_scene(needle)
+    at_rest = rolling.with_(motion={"slip_percent": 200.0})
+    along = [lubfric.prepare(scene).sample.cells.spacing[0] for scene in (rolling, at_rest)]
+    assert along == pytest.approx([4e-6, 8e-6])
+    fine = rolling.with_(contact={"spacing": [1e-6, 2e-6], "shape": [256, 64]})
+    assert lubfric.prepare(fine).sample.cells.spacing[0] == pytest.approx(4e-6)
