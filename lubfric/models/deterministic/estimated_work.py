@@ -414,7 +414,9 @@ def _seconds_in_motion(
 def measured_over_expected(prepared: Prepared, speed: float, measured: FirstSteps) -> float:
     """Return the processor time of a strip of moving roughness at ``speed`` [m/s], as its first steps are ``measured``, over what
     is expected of it."""
-    (scene, sample, surface) = (prepared.scene, prepared.sample, prepared.surface)
+    scene = prepared.scene
+    sample = prepared.sample
+    surface = prepared.surface
     expected = _seconds_in_motion(scene, sample, surface, speed)
     return _seconds_in_motion(scene, sample, surface, speed, measured) / expected
 
