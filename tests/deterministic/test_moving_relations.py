@@ -118,12 +118,13 @@ def test_f_is_that_of_the_strip_as_shorter_cells_change_it(results):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_similar_contacts_have_one_coefficient(model, results):
-    """All lengths twice as long, at the same stresses: but the gap of touching bodies, 1 nm, which no summit reaches."""
+    """All lengths twice as long, at the same stresses: but the gap of touching bodies, 1 nm, which iterates of Newton's method
+    reach. So both agree to the residual at which steps in time end."""
     scene = SCENE.with_(bodies={"radius": 1e-2, "width": 1e-2, "load": 240.0, "boundary_film": 40e-9})
     surface = replace(MAP, heights=2 * MAP.heights, spacing=(5e-6, 5e-6))
     result = solved(model, scene, surface, 2 * SPEED)
-    assert result.coefficient == pytest.approx(results[model].coefficient, rel=1e-6)
-    assert result.rolling_force == pytest.approx(4 * results[model].rolling_force, rel=1e-6)
+    assert result.coefficient == pytest.approx(results[model].coefficient, rel=1e-3)
+    assert result.rolling_force == pytest.approx(4 * results[model].rolling_force, rel=1e-2)
 
 
 @pytest.mark.parametrize("model", [pytest.param("deterministic", marks=pytest.mark.slow), "quick"])
