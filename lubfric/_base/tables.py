@@ -81,22 +81,26 @@ def _no_formula(cell: Any) -> Any:
 
 
 class Columns(dict[str, Any]):
-    """Columns of a table by name; a missing one is an `InputError`."""
+    """Columns of the table ``path`` by name; a missing one is an `InputError`."""
+
+    def __init__(self, columns: Mapping[str, Any], path: Path) -> None:
+        super().__init__(columns)
+        self.path = path
 
     def __missing__(self, name: str) -> None:
-        raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
+        raise InputError(f"{self.path} has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
 def read_table(path: Path, content: bytes | None = None) -> Columns:
-    """Return the columns that `table_bytes` wrote, by name; an empty cell of numbers is NaN. ``content``: that of the file ``path`` where it is not yet
-    there. Raises `InputError` for a damaged table or another one."""
+    """Return the columns that `table_bytes` wrote, by name; an empty cell of numbers is NaN. ``content``: that of the file ``path``
+    where it is not yet there. Raises `InputError` for a damaged table or another one."""
     try:
         text = (Path(path).read_bytes() if content is None else content).decode()
         heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         words = {n: np.array(c, str) for n, c in columns.items() if n in IN_WORDS}
         numbers = {n: np.array([cell or "nan" for cell in c], float) for n, c in columns.items() if n not in IN_WORDS}
-        return Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns})
+        return Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns}, path)
     except (ValueError, IndexError, csv.Error) as problem:
         message = f"{path} is not a complete table of numbers ({shown(str(problem))})"
         raise InputError(f"{message}; give a table that 'lubfric run' wrote") from None

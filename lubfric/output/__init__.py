@@ -3,7 +3,7 @@
 from .command_line import main, parser
 from .commands import read_record
 from .contact_pictures import DrawnContact, drawn_contact, plot_contact
-from .describe import describe_scene, estimate_scene
+from .describe import describe_scene, described_scene, estimate_scene
 from .fields import fields_bytes, grid_bytes, write_moments
 from .picture_options import PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction

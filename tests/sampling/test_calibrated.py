@@ -360,7 +360,7 @@ def test_of_two_answers_to_a_thick_film_on_moving_roughness_that_with_the_smalle
     assert by_equation.contact_load == 0 and by_equation.film_to_roughness_ratio > 5
     assert quick.coefficient == by_equation.coefficient and quick.uncertainty.model == by_equation.uncertainty.model
     assert "the error of the load-sharing model is smaller" in quick.uncertainty.text
-    assert quick.decision.model == "quick" and "load-sharing model in place of strips" in quick.decision.text
+    assert quick.decision.model == "quick" and "load-sharing model in place of the quick model" in quick.decision.text
 
 
 def test_the_bounds_grow_where_no_case_is_alike():

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...wording import markdown
 from ..tables.pages import put
-from .jobs import KINDS, PATCH_KINDS
+from .jobs import KINDS, MEASURED_KINDS, PATCH_KINDS
 from .table import TABLE, estimate_again, extend, outside, table
 
 MODULE = "verification.campaigns.estimates"
@@ -20,9 +20,8 @@ def main() -> None:
     p = ArgumentParser(f"python -m {MODULE}", description=__doc__)
     p.add_argument("count", type=int, help="number of runs that the table shall have")
     p.add_argument("--first", type=int, default=0, help="number of the first run (default: %(default)s)")
-    p.add_argument(
-        "--kinds", nargs="+", default=[*KINDS, *PATCH_KINDS], choices=[*KINDS, *PATCH_KINDS], help="default: all"
-    )
+    kinds = [*KINDS, *PATCH_KINDS, *MEASURED_KINDS]
+    p.add_argument("--kinds", nargs="+", default=kinds, choices=kinds, help="default: all")
     p.add_argument("--table", type=Path, default=TABLE, help="file of the table (default: %(default)s)")
     extending.add_processes(p)
     p.add_argument("--again", action="store_true", help="estimate the runs of the table again; none of them is done")

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.output import estimate_scene
+from lubfric.output import described_scene, estimate_scene
 from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, History, Table, Transient
 from lubfric.studies import estimated_fit, estimated_study
@@ -50,7 +50,10 @@ PATCH_KINDS = (
     "patch traction",
 )
 FIRST_PATCH = 10_000
-ROLLING = ("rolling auto", "rolling quick", "rolling deterministic", "traction")
+# The kinds of runs whose time `lubfric info` measures on their first steps, which begin with number `FIRST_MEASURED`.
+MEASURED_KINDS = ("rolling auto measured", "rolling deterministic measured")
+FIRST_MEASURED = 20_000
+ROLLING = ("rolling auto", "rolling quick", "rolling deterministic", "traction", *MEASURED_KINDS)
 # Model of a kind whose name does not say it. A fit by the quick model takes one to three minutes.
 MODELS = {"curve": "paper", "study": "quick", "fit": "paper", "time": "paper", "run-in": "paper"}
 # Usual ranges, drawn evenly in the logarithm: radius [m], E' [Pa], Hertz pressure [Pa], Sq [m], correlation length [m],
@@ -96,8 +99,10 @@ class RandomRun:
 
 
 def kind_of(seed: int) -> str:
-    """Return the kind of run number ``seed``: one on a patch from `FIRST_PATCH` on."""
-    kinds = PATCH_KINDS if seed >= FIRST_PATCH else KINDS
+    """Return the kind of run number ``seed``: one on a patch from `FIRST_PATCH` on, one that is measured from `FIRST_MEASURED` on."""
+    kinds: tuple[str, ...] = KINDS
+    if seed >= FIRST_PATCH:
+        kinds = PATCH_KINDS if seed < FIRST_MEASURED else MEASURED_KINDS
     return kinds[seed % len(kinds)]
 
 
@@ -123,10 +128,11 @@ def _drawn(seed: int, draw: int, kind: str) -> RandomRun:
     if is_on_patch:
         scene = scene.with_(contact=_patch_of_point(rng, scene), numerics={"sampling": "patch"})
     speed = scene.motion.entrainment_speed
-    model = kind.rpartition(" ")[2]
+    is_measured = kind in MEASURED_KINDS
+    model = kind.removesuffix(" measured").rpartition(" ")[2]
     model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "quick")
     scene = scene.with_(numerics={"model": model})
-    estimate: Callable[[], float] = partial(_of_scene, scene)
+    estimate: Callable[[], float] = partial(_measured, scene) if is_measured else partial(_of_scene, scene)
     run: Callable[[], object] = partial(lubfric.friction, scene, speed)
     if kind == "curve":
         estimate = partial(_of_scene, scene, speeds="auto")
@@ -256,6 +262,12 @@ def _of_scene(
     prepared = lubfric.prepare(scene)
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios)
     return estimate.command_seconds if command else estimate.seconds
+
+
+def _measured(scene: lubfric.Scene) -> float:
+    """Return the seconds that ``lubfric info`` states."""
+    (_, estimate) = described_scene(scene, measures=True)
+    return estimate.seconds
 
 
 def _of_study(scene: lubfric.Scene, axes: Keywords, speeds: list[float]) -> float:
