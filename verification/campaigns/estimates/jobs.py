@@ -132,6 +132,8 @@ def _drawn(seed: int, draw: int, kind: str) -> RandomRun:
     model = kind.removesuffix(" measured").rpartition(" ")[2]
     model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "quick")
     scene = scene.with_(numerics={"model": model})
+    if is_measured:  # a limit would end half of those that are drawn
+        scene = scene.with_(numerics={"max_work": None})
     estimate: Callable[[], float] = partial(_measured, scene) if is_measured else partial(_of_scene, scene)
     run: Callable[[], object] = partial(lubfric.friction, scene, speed)
     if kind == "curve":
