@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import studies
 from .._base import __version__
-from ..models.shared import percent, sentence
+from ..models.shared import LARGE_NUMERICAL_ERROR, percent, sentence
 from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval
@@ -24,6 +24,7 @@ from .report import (
     paragraphs,
     picture,
     scene_in_words,
+    status_kind,
     style_sheet,
     table,
     warnings_and_notes,
@@ -96,7 +97,7 @@ def fit_page(
 
 
 def fit_status(result: FitResult) -> tuple[str, str]:
-    """Return the kind of the status of a fit, "failed" or "", and the status in sentences."""
+    """Return the kind of the status of a fit (`status_kind`), and the status in sentences."""
     undetermined = [_label(key) for key in result.undetermined]
     if not result.report.converged:
         return "failed", "Not complete: the trust region did not end."
@@ -110,7 +111,11 @@ def fit_status(result: FitResult) -> tuple[str, str]:
     one_sided = [_label(key) for key in result.undetermined_sides if key not in result.undetermined]
     if one_sided:
         head += f" They determine on one side alone: {', '.join(one_sided)}."
-    return "", head
+    known = result.model_error[np.isfinite(result.model_error)]
+    is_inexact = bool(known.size) and float(known.max()) > LARGE_NUMERICAL_ERROR
+    if is_inexact:
+        head += f" The model-form error of f, up to {percent(float(known.max()))}, is in no interval of a parameter."
+    return status_kind(failed=False, inexact=is_inexact), head
 
 
 def _why_not(result: FitResult) -> str:

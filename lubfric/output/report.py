@@ -877,8 +877,12 @@ def _used_in_words(key: str, value: Any) -> str:
 BY_FIT = "fitted"
 
 
+# Key of an oil by its name, from which other inputs follow.
+NAMED_OIL = "oil"
+
+
 def _is_short_form(section: str, given: dict[str, Any]) -> bool:
-    return any(name in given for name in short_keys(section))
+    return any(name in given for name in (*short_keys(section), NAMED_OIL))
 
 
 def _given(name: str, value: Any) -> str:

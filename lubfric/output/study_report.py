@@ -61,8 +61,11 @@ from .report import (
     table,
 )
 
-# Rows of the table of a report; study.csv has all.
+# Rows of the table of a report, about; study.csv has all.
 MOST_ROWS = 60
+
+# Numbers whose smallest and largest value the answer of a study has.
+ANSWERED = ("coefficient", "power_loss")
 
 # Heading of the column of the asperity load ratio.
 ASPERITY_LOAD_RATIO = "asperity load ratio F_C/F_T"
@@ -132,7 +135,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     about = (
         "no. is the row of study.csv, which has all numbers."
         if rows == size
-        else f"{rows} of {size} points; study.csv has all of them."
+        else f"Some {rows} of {size} points, evenly, and those of the answer. No. is the row of study.csv, which has all of them."
     )
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
@@ -486,8 +489,12 @@ def _parts_of_error(
 
 
 def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
-    """Return which of the points in ``columns`` so many ``rows`` of a table show."""
-    return np.unique(np.linspace(0, len(next(iter(columns.values()))) - 1, rows).round().astype(int))
+    """Return which of the points in ``columns`` a table of about so many ``rows`` shows: some evenly, and those of the answer."""
+    count = len(next(iter(columns.values())))
+    evenly = np.linspace(0, count - 1, rows).round().astype(int)
+    known = [columns[name] for name in ANSWERED if np.isfinite(columns[name]).any()]
+    ends = [find(values) for values in known for find in (np.nanargmin, np.nanargmax)]
+    return np.unique([*evenly, *ends])
 
 
 def _scene_of_each(result: StudyResult) -> list[Scene]:

@@ -55,6 +55,15 @@ def test_an_input_that_is_given_in_si_has_its_unit_in_the_report():
     assert {"870 kg/m³", "70 °C", "8 mm, a plane", "95", "0.001 m/s, 10 m/s, 13"} <= used
 
 
+def test_what_follows_from_a_named_oil_is_derived():
+    """Its viscosity and its pressure-viscosity coefficient are no defaults."""
+    given = {"oil": "mineral-100", "temperature": "60 °C"}
+    own = {"viscosity": None, "pressure_viscosity_coefficient": None}
+    page = input_tables(lubfric.load_scene("paper").with_(lubricant=given | own), "lubricant", given)
+    row = page.partition("viscosity at ambient pressure")[2].partition("</tr>")[0]
+    assert "derived" in row
+
+
 @pytest.mark.parametrize("width", [100, 60])
 def test_no_line_of_info_is_wider_than_the_terminal(width, monkeypatch, capsys):
     """The table is as wide as its numbers are; all other lines break between words, and lose none."""

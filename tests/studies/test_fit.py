@@ -2,9 +2,11 @@
 
 import html
 import json
+import math
 import shlex
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -16,7 +18,7 @@ from scipy.stats import f as f_distribution
 from small_study import slowness
 
 import lubfric
-from lubfric.output import main
+from lubfric.output import fit_status, main
 
 SCENE = small_study.SCENE.with_(lubricant={"eyring_stress": 5e6})
 SPEEDS = np.geomspace(1e-3, 0.5, 7)
@@ -623,3 +625,12 @@ def test_the_report_of_a_fit_that_does_not_describe_the_data_states_no_interval(
         "at 95 %)" not in answer and "not valid</td>" in answer and "times as large as the stated deviations" in answer
     )
     assert "95 % interval</th>" in rest and rest.count("not valid</td>") == SPEEDS.size
+
+
+def test_the_status_of_a_fit_names_a_large_model_form_error():
+    """No interval of a parameter has it: 80 % of f are no scatter of the data."""
+    measured = made_up(1, noise=0.0)
+    result = lubfric.fit(SCENE, measured, {FRICTION: (0.05, 0.2)}, starts=0)
+    for error, expected in ((0.05, ""), (0.8, "inexact"), (math.nan, "")):
+        (kind, text) = fit_status(replace(result, model_error=np.full(SPEEDS.size, error)))
+        assert kind == expected and ("up to 80 %, is in no interval" in text) == (kind == "inexact")

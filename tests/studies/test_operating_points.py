@@ -452,3 +452,14 @@ def test_a_report_says_why_temperature_rises_are_not_computed_and_how_to_get_the
     assert reason.startswith(f"{numbers} the temperature rises are not computed: ")
     assert np.isfinite(result["flash_temperature_rise"]).tolist() == [heat == "on", False, heat == "on"]
     assert len(reasons) == {"auto": 2, "off": 1, "on": 1}[heat]
+
+
+def test_the_points_of_the_answer_are_in_the_table_of_a_long_study(monkeypatch):
+    """Ten points with a table of three: those of the smallest and largest f and power loss are in it."""
+    monkeypatch.setattr("lubfric.output.study_report.MOST_ROWS", 3)
+    result = lubfric.study(SCENE, {"bodies.load": np.linspace(3.0, 6.0, 10).tolist()}, speeds=[0.03])
+    page = study_page(result, {}, ["a study"])
+    numbers = [int(number) for number in re.findall(r"<tr><td[^>]*>(\d+)</td>", page.decode())]
+    for name in ("coefficient", "power_loss"):
+        values = np.ravel(result[name])
+        assert {int(np.argmin(values)) + 1, int(np.argmax(values)) + 1} <= set(numbers)
