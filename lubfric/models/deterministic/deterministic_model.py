@@ -22,7 +22,7 @@ from ..work_estimate import MeasuredTime, WorkEstimate
 from .answer import answer_of
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import estimated_work, measured_over_expected, why_too_costly, why_too_many_cells
-from .first_steps import MEASURED_STEPS, first_steps
+from .first_steps import first_steps
 from .heat_of_strip import too_hot_in_words, why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
@@ -120,7 +120,7 @@ class DeterministicModel(Model):
             return None
         return MeasuredTime(
             over_expected=measured_over_expected(prepared, speed, measured),
-            steps=MEASURED_STEPS,
+            steps=measured.steps,
             seconds=measured.seconds,
         )
 

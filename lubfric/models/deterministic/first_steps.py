@@ -4,27 +4,29 @@ A closed form knows the work of a step within a factor of 2 for nine of ten cont
 know it better, and what the processor does with it.
 """
 
-import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import islice
 
 from ..._base import limited_work
 from ...errors import ConvergenceError
 from ..shared import Prepared
-from .moving import film_half_width
-from .moving_strip import effort_of, solve_moving_strip, strip_at_rest, work_of_step_in_time
+from .moving_strip import effort_of, first_moments, strip_at_rest, work_of_step_in_time
 from .rough_bodies import bodies_of
 from .strip_on_two_grids import longer_than, surface_and_map_coarsening
 
-# Steps in time that are measured [-]. A choice: the mean of so many is within a factor of 1.2 of that of the complete strip in most
+# Steps in time that are measured, at most [-]. A choice: the mean of so many is within a factor of 1.2 of that of the complete strip in most
 # of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
 MEASURED_STEPS = 10
 
 # Steps in time before them [-]: the first ones from rest take more. A choice, above `moving.STEPS_FROM_REST`.
 STEPS_BEFORE = 3
 
-# Counted work [s] of the measurement, at most. A choice: a twelfth of `MOST_WORK_OF_POINT`.
-MOST_WORK_OF_MEASUREMENT = 10.0
+# Counted work [s] after which the measurement ends, with a step that counts. A choice: a twelfth of `MOST_WORK_OF_POINT`.
+ENOUGH_WORK = 10.0
+
+# Counted work [s] of the measurement, at most. A choice: four times as much, for a strip at rest that takes long.
+MOST_WORK_OF_MEASUREMENT = 40.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,12 +35,14 @@ class FirstSteps:
 
     Attributes
     ----------
+    steps : number of steps in time that count
     factor : counted work of a step in time over `work_of_step_in_time`
     rest : counted work of the strip at rest, from which the motion begins, over the same
     pace : processor time over counted work
     seconds : processor time [s] of the measurement
     """
 
+    steps: int
     factor: float
     rest: float
     pace: float
@@ -47,38 +51,36 @@ class FirstSteps:
 
 def first_steps(prepared: Prepared, speed: float) -> FirstSteps | None:
     """Solve the first strip of moving roughness at ``speed`` [m/s] at rest and for its first steps in time, as a point does; None
-    where these are not solved within `MOST_WORK_OF_MEASUREMENT`."""
+    where one of these is not solved within `MOST_WORK_OF_MEASUREMENT`."""
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     bodies = bodies_of(prepared, 0, speed)
-    cell = map_coarsening[0] * surface.spacing[0]
-    way = STEPS_BEFORE * cell / film_half_width(scene.line_contact(abs(speed)))
-    effort = replace(effort_of(scene, bodies, speed, map_coarsening), discarded=way)
+    effort = effort_of(scene, bodies, speed, map_coarsening)
     longer_cells = longer_than(surface, map_coarsening, is_moving=True)
+    works: list[float] = []
     begun = time.process_time()
     try:
-        with limited_work(MOST_WORK_OF_MEASUREMENT):
+        with limited_work(MOST_WORK_OF_MEASUREMENT) as meter:
             longer = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
-            strip = solve_moving_strip(
-                scene,
-                bodies,
-                speed,
-                map_coarsening=map_coarsening,
-                start=longer,
-                effort=effort,
-                most_steps=MEASURED_STEPS,
-            )
+            rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, start=longer, effort=effort)
+            of_rest = meter.spent
+            spent = of_rest
+            for _ in islice(
+                first_moments(scene, bodies, speed, rest=rest, effort=effort), STEPS_BEFORE + MEASURED_STEPS
+            ):
+                works.append(meter.spent - spent)
+                spent = meter.spent
+                if spent > ENOUGH_WORK and len(works) > STEPS_BEFORE:
+                    break
     except ConvergenceError:
         return None
     seconds = time.process_time() - begun
-    usual = work_of_step_in_time(strip.result.pressure.size)
-    of_steps = float(strip.series["work"][strip.discarded :].mean())
-    spent = strip.work + longer.work
-    if not math.isfinite(of_steps) or spent <= 0 or of_steps <= 0:
-        return None
+    usual = work_of_step_in_time(rest.result.pressure.size)
+    counted = works[STEPS_BEFORE:]
     return FirstSteps(
-        factor=of_steps / usual,
-        rest=(strip.rest.work + longer.work) / usual,
+        steps=len(counted),
+        factor=sum(counted) / len(counted) / usual,
+        rest=of_rest / usual,
         pace=seconds / spent,
         seconds=seconds,
     )

@@ -320,6 +320,15 @@ def solve_moving_strip(
     )
 
 
+def first_moments(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, *, rest: StripSolution, effort: MovingEffort
+) -> Iterator[Moment]:
+    """Yield the moments of `solve_moving_strip` after ``rest``, the strip at rest, without end."""
+    (step, *_) = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
+    passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
+    return islice(passing, 1, None)
+
+
 @dataclass(frozen=True, kw_only=True)
 class InputEnds:
     """Ends of the ranges of inputs at which f follows from the moments: ``oils``, both lubricants by the name of the input,
