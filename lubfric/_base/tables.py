@@ -81,14 +81,12 @@ def _no_formula(cell: Any) -> Any:
 
 
 class Columns(dict[str, Any]):
-    """Columns of the table ``path`` by name; a missing one is an `InputError`."""
+    """Columns of a table by name; a missing one is an `InputError` that names the ``source``."""
 
-    def __init__(self, columns: Mapping[str, Any], path: Path) -> None:
-        super().__init__(columns)
-        self.path = path
+    source = "the table"
 
     def __missing__(self, name: str) -> None:
-        raise InputError(f"{self.path} has no column {name!r}; give a table that 'lubfric run' wrote")
+        raise InputError(f"{self.source} has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
 def read_table(path: Path, content: bytes | None = None) -> Columns:
@@ -100,7 +98,9 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         words = {n: np.array(c, str) for n, c in columns.items() if n in IN_WORDS}
         numbers = {n: np.array([cell or "nan" for cell in c], float) for n, c in columns.items() if n not in IN_WORDS}
-        return Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns}, path)
+        result = Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns})
+        result.source = str(path)
+        return result
     except (ValueError, IndexError, csv.Error) as problem:
         message = f"{path} is not a complete table of numbers ({shown(str(problem))})"
         raise InputError(f"{message}; give a table that 'lubfric run' wrote") from None
