@@ -819,6 +819,7 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
 
 
 def warnings_and_notes(validity: Iterable[str]) -> str:
+    """Return the list of the warnings in ``validity``, and below it that of the notes, each a sentence."""
     texts = {text: sentence(_without_head(text)) for text in validity}
     warnings = [shown for text, shown in texts.items() if not is_note_text(text)]
     notes = [shown for text, shown in texts.items() if is_note_text(text)]
@@ -984,6 +985,7 @@ def paragraphs(sentences: Iterable[str]) -> str:
 
 
 def bullets(lines: Sequence[str], otherwise: str = "", kind: str = "") -> str:
+    """Return ``lines`` as a list of the class ``kind``; where there are none, ``otherwise`` as a paragraph."""
     if not lines:
         return f"<p>{escape(otherwise)}</p>" if otherwise else ""
     return f'<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'
