@@ -70,6 +70,23 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
     assert abs(found.coefficient / np.mean(f) - 1) < math.hypot(half(found), 2 * error)
 
 
+def test_a_map_whose_strips_are_all_solved_has_a_sampling_error_and_none_of_the_difference(tmp_path):
+    """Eq. (8) says nothing of strips that are solved anyway, so what they scatter is chance. Oracle: their f one by one."""
+    np.save(
+        tmp_path / "map.npy",
+        lubfric.generate_surface((100, 100), 3.6e-6, sq=2.4e-7, correlation_length=1.6e-5, seed=5).heights,
+    )
+    rough = {"file": str(tmp_path / "map.npy"), "spacing": 3.6e-6, "unit": "m", "motion_axis": "x"}
+    scene = SCENE.with_(surface=rough, contact={"shape": None, "spacing": None})
+    result = lubfric.friction(scene, 0.05)
+    sample = lubfric.prepare(scene).sample
+    f = [solve_strip(scene, sample.strip(k), 0.05).result.coefficient for k in range(sample.available_strips)]
+    assert f"of a line of {len(f)}" in result.decision.text and f"on {len(f)} strips" in result.decision.text
+    scatter = np.std(f, ddof=1) / math.sqrt(len(f)) / np.mean(f)
+    assert result.uncertainty.sampling == pytest.approx(scatter, rel=0.5)
+    assert result.uncertainty.model < 0.1 * result.uncertainty.sampling
+
+
 @pytest.mark.slow
 def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""

@@ -167,7 +167,8 @@ class TwoLevelEstimate:
     ----------
     control_strips, numbers, note, by_summits : as in `Levels`
     error_of_f : standard error of f [-], not over it
-    difference_error_of_f : the part of it that is the difference between the models [-]
+    difference_error_of_f : the same of the difference between the models, where the line has strips without end [-]
+    left_to_control : part of the strips of the first level that the second leaves out [-]
     between : standard deviation of f between strips [-]
     """
 
@@ -176,6 +177,7 @@ class TwoLevelEstimate:
     error_of_f: StandardError
     difference_error_of_f: StandardError
     between: float
+    left_to_control: float = 0.0
     note: str = ""
     by_summits: float = 0.0
 
@@ -289,9 +291,8 @@ def levels_of(
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error_of_f, replace(shorter.sampling_error, value=shorter.sampling_error.value * f))
-    difference_error = StandardError(
-        min(estimate.difference_error_of_f.value, of_strips.value) / f, estimate.difference_error_of_f.freedom
-    )
+    of_difference = math.sqrt(estimate.left_to_control) * estimate.difference_error_of_f.value
+    difference_error = StandardError(min(of_difference, of_strips.value) / f, estimate.difference_error_of_f.freedom)
     by_chance = math.sqrt((of_strips.value / f) ** 2 - difference_error.value**2)
     sampling_error = replace(of_strips, value=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
@@ -380,6 +381,7 @@ def _estimate_at_rest(
         error_of_f=error,
         difference_error_of_f=_scatter(pairs, prepared.sample, control, 1.0),
         between=between,
+        left_to_control=unsolved,
     )
 
 
