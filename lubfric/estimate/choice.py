@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
@@ -55,15 +55,20 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
         models = (*models_cheaper_than(requested), requested)
     else:
         models = models_up_to(requested)
-    able = _able(prepared, speed, models)
+    reasons = {model.name: model.why_unable(prepared, speed) for model in models}
+    able = _able(speed, models, reasons)
     if requested == AUTO:
-        return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
+        choice = _cheapest(prepared, speed, able, for_fields=for_fields)
+        most_expensive = models[-1].name
+        if reasons[most_expensive] and choice.model is able[-1] and not choice.why:
+            choice = replace(choice, why=f"not the {most_expensive} model: {reasons[most_expensive]}")
+        return _completed(choice)
     return _completed(_most_expensive(prepared, speed, able, models[-1], for_fields=for_fields))
 
 
-def _able(prepared: Prepared, speed: float, models: Sequence[Model]) -> list[Model]:
-    """Return those of ``models`` that have an answer at ``speed`` [m/s]; `InputError` where none has."""
-    reasons = {model.name: model.why_unable(prepared, speed) for model in models}
+def _able(speed: float, models: Sequence[Model], reasons: Mapping[str, str]) -> list[Model]:
+    """Return those of ``models`` that have an answer at ``speed`` [m/s]: none of the ``reasons`` against it, by their names.
+    `InputError` where none has."""
     able = [model for model in models if not reasons[model.name]]
     if not able:
         why = "; ".join(f"{name}: {reason}" for name, reason in reasons.items())

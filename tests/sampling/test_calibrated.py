@@ -285,6 +285,15 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
 
 
+def test_auto_states_why_a_strip_has_too_many_cells_for_the_deterministic_model(monkeypatch):
+    """Long cells are fewer: the quick model answers, and the text names the limit of the cells."""
+    scene = HEAVIER.with_(bodies={"load": 4.0}, numerics={"sampling": "patch", "grid": "given"} | LOOSE)
+    reason = "not the deterministic model: a strip needs 3.2e.03 cells, more than the 2e.03 that are solved at most"
+    monkeypatch.setattr("lubfric.models.deterministic.problem.MOST_GRID_CELLS", 2000)
+    decision = lubfric.friction(scene, 0.1).decision
+    assert decision.model == "quick" and re.search(reason, decision.text)
+
+
 def test_a_lambda_ratio_outside_the_campaign_is_that_of_the_result():
     """Full-load films by another way: starved or heated, as far from the limit as Moes' film is from the campaign's."""
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
