@@ -3,50 +3,53 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import studies
 from .._base import figures
 from ..quantities import COLUMNS
+from .effect_pictures import draw_effects
 from .picture_options import PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 STUDY_PICTURE = "study.png"
 
-# Heights of the pictures at the usual width [inch]: of curves, of a row of panels, and of both panels of operating points.
+# Heights of the pictures at the usual width [inch]: of curves, and of both panels of operating points.
 # Chosen by looking at the figures.
 STUDY_HEIGHT = 4.2
-ROW_HEIGHT = 2.6
 PAIRED_HEIGHTS = (3.0, 3.0)
 
 # Height of the axes of a picture, at least [inch]. Chosen by looking at the figures.
 LEAST_PANEL = 1.3
 
-# Panels side by side, at most, in a picture of the usual width and in a narrow one. Chosen by looking at the figures.
-PANELS_IN_A_ROW = 3
-NARROW_PANELS_IN_A_ROW = 2
-
-# Points from which on those of a picture are small, and their intervals thin. A choice, by looking at the figures.
+# Points up to which they are numbered where more inputs than `MOST_PANELS` are varied. A choice, by looking at the figures.
 MANY_POINTS = 40
-MANY_OVER_ONE = 3  # points over each value, on average, from which on they are small, too
 
-# Panels of the picture of a study, at most: one for each thing that is varied. A choice, by looking at the figures.
+# Lines of what two or more things vary, and lines coloured by one thing, that a picture tells apart, at most. Choices, by
+# looking at the figures.
+MOST_STYLED_LINES = 16
+MOST_SHADED_LINES = 40
+
+# Operating points without a position from which on f is drawn over what is varied: their numbers say nothing. A choice: fewer
+# are looked up in the table.
+MANY_NUMBERED = 20
+
+# Inputs of few points up to which each has a panel; with more the points are numbered. A choice, by looking at the figures.
 MOST_PANELS = 8
 
 
 @figures.styled
 def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions = PictureOptions()) -> None:
     """Draw what a study found: operating points with their power loss; else f over the speed, or over a key that is varied, a
-    line for each combination of the others; where more is varied, or several keys together, f over each of them."""
+    line for each combination of the others; where no lines tell these apart, the effect of each input on f."""
     title = figures.plain_words(result.plan.scene.name) if options.has_title else ""
     over = _key_of_axis(result)
-    varied = [key for key, values in _along(result).items() if np.unique(values.astype(str)).size > 1]
-    if result.paired:
+    varied = [key for key, (_, values) in result.coords.items() if np.unique(values.astype(str)).size > 1]
+    if result.paired and not _is_sample(result):
         figure = figures.new_figure(figsize=options.size(PAIRED_HEIGHTS))
         upper, lower = figure.subplots(2, 1, sharex=True)
         studies.plot_points(result, "coefficient", upper).set_xlabel("")
@@ -58,8 +61,8 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
         studies.lines_over(axes, result, over, has_bands=True)
         _begin_at_zero(axes, result)
         figures.key_above(axes, 2)
-    elif varied and len(varied) <= MOST_PANELS:
-        figure = _panels(result, varied, options)
+    elif varied and (len(varied) <= MOST_PANELS or result.status.size > MANY_POINTS):
+        figure = draw_effects(result, varied, options)
     else:
         figure = figures.new_figure(figsize=options.size([STUDY_HEIGHT]))
         axes = figure.subplots()
@@ -80,14 +83,27 @@ def _key_of_axis(result: studies.StudyResult) -> str:
         return ""
     lengths = dict(zip(result.dims, result.status.shape))
     longer = {key: values for key, (dim, values) in result.coords.items() if lengths[dim] > 1}
-    if result.chosen or "speed" in longer:
-        return "speed"
+    if result.chosen or studies.SPEED in longer:
+        others = {key: values for key, values in longer.items() if key != studies.SPEED}
+        return studies.SPEED if _are_lines_distinct(result, others) else ""
     dims = [result.coords[key][0] for key in longer]
     if not longer or len(set(dims)) < len(dims):
         return ""
     over = max(longer, key=lambda key: (_is_number(longer[key]), key in COLUMNS, longer[key].size))
-    sizes = sorted(values.size for key, values in longer.items() if key != over)
-    return over if int(np.prod(sizes[:-1], dtype=int)) <= len(studies.STYLES) else ""
+    others = {key: values for key, values in longer.items() if key != over}
+    return over if _are_lines_distinct(result, others) else ""
+
+
+def _are_lines_distinct(result: studies.StudyResult, others: dict[str, np.ndarray]) -> bool:
+    """Return whether lines, one for each combination of the values of ``others`` by their keys, can be told apart."""
+    sizes = {result.coords[key][0]: values.size for key, values in others.items()}
+    count = int(np.prod(list(sizes.values()), dtype=int))
+    if len(sizes) > 1:
+        styles = int(np.prod(sorted(sizes.values())[:-1], dtype=int))
+        return styles <= len(studies.STYLES) and count <= MOST_STYLED_LINES
+    if len(others) > 1:
+        return count <= studies.NAMED_SHADES
+    return count <= (MOST_SHADED_LINES if all(map(_is_number, others.values())) else studies.NAMED)
 
 
 def _is_number(values: np.ndarray) -> bool:
@@ -95,44 +111,11 @@ def _is_number(values: np.ndarray) -> bool:
     return values.dtype.kind in "fi" and np.unique(values).size == values.size
 
 
-def _along(result: studies.StudyResult) -> dict[str, np.ndarray]:
-    """Return what is varied by its key, one value for each point, in the shape of the study."""
-    shape = result.status.shape
-    arrays = {}
-    for key, (dim, values) in result.coords.items():
-        sides = [1] * len(shape)
-        sides[result.dims.index(dim)] = values.size
-        arrays[key] = np.broadcast_to(values.reshape(sides), shape)
-    return arrays
-
-
-def _panels(result: studies.StudyResult, varied: list[str], options: PictureOptions) -> Figure:
-    """Draw f of all points over each of the keys that are ``varied``, in rows."""
-    most = NARROW_PANELS_IN_A_ROW if options.is_narrow else PANELS_IN_A_ROW
-    rows = -(-len(varied) // most)
-    columns = -(-len(varied) // rows)
-    figure = figures.new_figure(figsize=options.size([ROW_HEIGHT] * rows))
-    panels = figure.subplots(rows, columns, sharey=True, squeeze=False).ravel()
-    values = _along(result)
-    for number, (axes, key) in enumerate(zip(panels, varied)):
-        of_points = values[key].ravel()
-        if of_points.dtype.kind in "fi":
-            shown, label = studies.shown_numbers(key, of_points)
-            _draw_points(axes, shown, result)
-            studies.tick_values(axes, shown)
-        else:
-            names, places = np.unique(of_points.astype(str), return_inverse=True)
-            label = studies.name_of(key)
-            _draw_points(axes, places, result)
-            studies.name_places(axes, names.tolist())
-        axes.set_xlabel(label)
-        axes.set_ylabel("" if number % columns else figures.FRICTION_LABEL)
-    for axes in panels[len(varied) :]:
-        axes.set_visible(False)
-    handles, labels = panels[0].get_legend_handles_labels()
-    size = figures.SMALL_KEY_SIZE if options.is_narrow else figures.KEY_SIZE
-    figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False, fontsize=size)
-    return figure
+def _is_sample(result: studies.StudyResult) -> bool:
+    """Return whether a study of operating points is over no position, angle or time, and has so many of them that their number
+    says nothing."""
+    is_ordered = any(name in result.coords for name in studies.ORDERED_BY)
+    return not is_ordered and result.status.shape[-1] > MANY_NUMBERED
 
 
 def _draw_points(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> None:
@@ -140,19 +123,10 @@ def _draw_points(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> N
     f = result["coefficient"].ravel()
     low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
-    many = f.size > MANY_POINTS or f.size > MANY_OVER_ONE * np.unique(over).size
-    width = 0.7 if many else 4
     if known.any():
-        axes.vlines(
-            over[known],
-            low[known],
-            high[known],
-            color=figures.BLUE,
-            alpha=0.25 if many else 0.4,
-            lw=width,
-            label="95 % interval",
-        )
-    axes.plot(over, f, "o", ms=2.5 if many else 5, color=figures.BLUE, label="friction coefficient")
+        bars: dict[str, Any] = {"color": figures.BLUE, "alpha": 0.4, "lw": 4, "label": "95 % interval"}
+        axes.vlines(over[known], low[known], high[known], **bars)
+    axes.plot(over, f, "o", ms=5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION_LABEL)
     _begin_at_zero(axes, result)
 

@@ -35,6 +35,7 @@ from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget, has_moving_roughness, i
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
+    ORDERED_BY,
     POSITION,
     UNUSED,
     StudyPlan,
@@ -108,9 +109,6 @@ DERIVED_COLUMNS = {
     ("sliding_speed",): (SLIDE_ROLL_RATIO_KEY,),
     ("R1", "R2"): ("bodies.radius",),
 }
-
-# Where an operating point lies.
-COORDINATE = (POSITION, "angle", "time")
 
 # What the mean power loss of a path of contact is.
 OF_TOOTH_PAIR = "It is that of one tooth pair: a gear has this times its contact ratio."
@@ -608,7 +606,7 @@ def planned_point_in_words(plan: StudyPlan, index: tuple[int, ...]) -> str:
     number = int(np.ravel_multi_index(index, plan.shape)) + 1
     if not plan.paired:
         return f"point {number}: {place_in_words(plan, index, plan.point_speed(index))}"
-    known = (name for name in COORDINATE if name in plan.coords)
+    known = (name for name in ORDERED_BY if name in plan.coords)
     place = "".join(f" ({name} {_coordinate(name, plan.coords[name][1], index[-1])})" for name in known)
     return f"point {number}{place}"
 

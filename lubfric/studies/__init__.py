@@ -13,13 +13,13 @@ from .fit_result import FitResult, draw_fit, draw_residuals
 from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
-from .main_effects import main_effects
-from .operating_points import DURATION, INTERVAL_COLUMNS, POSITION, mean_over_cycle
+from .main_effects import is_scattered, main_effects
+from .operating_points import DURATION, INTERVAL_COLUMNS, ORDERED_BY, POSITION, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
-from .study_lines import STYLES, lines_over, name_places, tick_values
+from .study_lines import NAMED, NAMED_SHADES, STYLES, line_colours, lines_over, name_places, tick_values
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     check_tools,

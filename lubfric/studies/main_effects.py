@@ -18,8 +18,8 @@ POINTS_FOR_EACH = 6
 # Correlation of two inputs from which their shares are not told apart. A convention.
 MOST_CORRELATED = 0.3
 
-# Points at each value of an input, on average, from which these are groups; else a parabola is laid through all points.
-# A choice: one each has no scatter in a group.
+# Points of an axis at each value of an input, on average, from which these are groups where other inputs change along that
+# axis; else a parabola is laid through all points. A choice: one each has no scatter in a group.
 POINTS_IN_GROUP = 2
 
 # Ratio of the largest to the smallest value from which a number counts by its logarithm. A choice: it changes the
@@ -53,7 +53,7 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     keys = [key for key in result.coords if key in inputs and np.unique(columns[key][known]).size > 1]
     if result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:
         return {}
-    scattered = [key for key in keys if _is_scattered(columns[key][known])]
+    scattered = {key for key in keys if is_scattered(result, key)}
     if known.sum() < POINTS_FOR_EACH * len(scattered):
         return {}
     y = np.log(f[known])
@@ -63,7 +63,9 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     together = np.abs(np.corrcoef([*x.values()])) - np.eye(len(keys))
     if together.max() > MOST_CORRELATED:
         return {}
-    effects = {key: _effect(x[key], y, is_number=columns[key].dtype.kind == "f") for key in keys}
+    effects = {
+        key: _effect(x[key], y, is_number=columns[key].dtype.kind == "f", is_scattered=key in scattered) for key in keys
+    }
     return dict(sorted(effects.items(), key=lambda pair: -pair[1].share))
 
 
@@ -74,14 +76,22 @@ def _coordinate(values: np.ndarray) -> np.ndarray:
     return np.log(values) if values.min() > 0 and values.max() > WIDE * values.min() else values
 
 
-def _is_scattered(values: np.ndarray) -> bool:
-    """Return whether an input seldom repeats its ``values``."""
-    return bool(np.unique(values).size * POINTS_IN_GROUP > values.size)
+def is_scattered(result: Any, key: str) -> bool:
+    """Return whether a ``key`` that a `StudyResult` varies seldom repeats its values along an axis that other inputs share, as in a
+    sample: what these do is then in the mean of f at each value."""
+    (dim, values) = result.coords[key]
+    inputs = {SPEED, *(name for axis in result.plan.axes for name in axis.keys)}
+    others = [
+        name
+        for name, (of_other, column) in result.coords.items()
+        if name != key and name in inputs and of_other == dim and np.unique(column).size > 1
+    ]
+    return bool(others) and bool(np.unique(values).size * POINTS_IN_GROUP > values.size)
 
 
-def _effect(x: np.ndarray, y: np.ndarray, *, is_number: bool) -> MainEffect:
+def _effect(x: np.ndarray, y: np.ndarray, *, is_number: bool, is_scattered: bool) -> MainEffect:
     """Return the effect of ``x`` on ``y``, at all points."""
-    if not (is_number and _is_scattered(x)):
+    if not (is_number and is_scattered):
         (_, place, count) = np.unique(x, return_inverse=True, return_counts=True)
         means = (np.bincount(place, y) / count)[place]
     else:

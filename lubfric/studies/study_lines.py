@@ -151,13 +151,13 @@ def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int
         shades = np.linspace(0.0, 1.0, len(indices))
     elif number is None or np.unique(plan.coords[number][1]).size <= NAMED_SHADES:
         shades = places / (sizes[first] - 1)
-        for place, colour in enumerate(_colours(np.arange(sizes[first]) / (sizes[first] - 1))):
+        for place, colour in enumerate(line_colours(np.arange(sizes[first]) / (sizes[first] - 1))):
             handles.append({"color": colour, "lw": 2.0, "label": _label_along(plan, {first: place})})
     else:
         values = plan.coords[number][1]
         bar = (number, float(values.min()), float(values.max()))
         shades = (values[places] - bar[1]) / (bar[2] - bar[1])
-    lines: list[dict[str, Any]] = [{"color": colour, "lw": 1.0} for colour in _colours(shades)]
+    lines: list[dict[str, Any]] = [{"color": colour, "lw": 1.0} for colour in line_colours(shades)]
     for index, line in zip(indices, lines):
         if few:
             line["label"] = figures.plain_words(label(plan, _without(index, along)))
@@ -196,7 +196,8 @@ def _label_along(plan: StudyPlan, places: dict[int, int]) -> str:
     return figures.plain_words(label(plan, tuple(index)))
 
 
-def _colours(shades: np.ndarray) -> np.ndarray:
+def line_colours(shades: np.ndarray) -> np.ndarray:
+    """Return the colours of lines (n, 4) whose ``shades`` are 0 to 1."""
     from matplotlib import colormaps
 
     return np.asarray(colormaps["viridis"](DARK_SHADES * np.asarray(shades, dtype=float)))
@@ -211,7 +212,7 @@ def _draw_bar(axes: Axes, styles: LineStyles) -> None:
         return
     key, *ends = styles.bar
     shown, text = shown_numbers(key, np.array(ends))
-    colours = ListedColormap(_colours(np.linspace(0.0, 1.0, 256)))
+    colours = ListedColormap(line_colours(np.linspace(0.0, 1.0, 256)))
     axes.figure.colorbar(ScalarMappable(Normalize(*shown), colours), ax=axes, label=text)
 
 

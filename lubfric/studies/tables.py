@@ -19,7 +19,7 @@ from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
-from .operating_points import INTERVAL_COLUMNS
+from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
@@ -117,7 +117,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     from matplotlib.ticker import MaxNLocator
 
     axes = figures.axes_or_new(ax)
-    coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
+    coordinate = next((name for name in ORDERED_BY if name in result.coords), None)
     count = result.status.shape[-1]
     over = np.arange(1.0, count + 1.0) if coordinate is None else result.coords[coordinate][1]
     over, label_over = _in_people_units(over, coordinate) if coordinate else (over, "operating point")

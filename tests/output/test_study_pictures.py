@@ -2,6 +2,7 @@
 smaller than 6 pt, and lines tell apart what is varied."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.output import pictures, run_curve, study_pictures
 from lubfric.output.picture_options import PictureOptions
-from lubfric.studies import StudyResult
+from lubfric.studies import StudyResult, main_effects
 
 SCENE = paper_scene(numerics={"sampling": "patch", "model": "paper"}).with_(
     name="cam follower of a diesel engine, line A",
@@ -69,6 +70,27 @@ STUDIES = {
     "speeds": ({"bodies.load": LOADS, "surface.sq": SQ}, [0.03, 0.1, 0.3, 1.0]),
     "one key over speeds": ({"surface.sq": SQ}, [0.03, 0.1, 0.3, 1.0]),
     "200 random points": ({FOUR: SAMPLE}, [0.1]),
+    "four keys over two speeds": (
+        {
+            "lubricant.grade": ["ISO VG 32", "ISO VG 68", "ISO VG 150", "ISO VG 320"],
+            "surface.sq": [5e-8, 1e-7, 2e-7, 4e-7],
+            "bodies.load": LOADS[:3],
+            "lubricant.temperature_celsius": [40, 80],
+        },
+        [0.1, 1.0],
+    ),
+    "four keys over many speeds": (
+        {
+            "lubricant.grade": ["ISO VG 32", "ISO VG 68", "ISO VG 150", "ISO VG 320"],
+            "surface.sq": [5e-8, 1e-7, 2e-7, 4e-7],
+            "bodies.load": LOADS,
+            "lubricant.temperature_celsius": [40, 80],
+        },
+        [0.01, 0.03, 0.1, 0.3, 1.0],
+    ),
+    "random scenes over two speeds": ({FOUR: SAMPLE[:100]}, [0.1, 1.0]),
+    "random scenes over many speeds": ({FOUR: SAMPLE[:60]}, [0.01, 0.03, 0.1, 0.3, 1.0]),
+    "random points with speeds": ({}, {**dict(zip(FOUR, zip(*SAMPLE[:60]))), "speed [m/s]": np.linspace(0.1, 2.0, 60)}),
     "random curves": ({FOUR: SAMPLE[:16]}, [0.03, 0.1, 0.3]),
     "materials": ({"bodies.material": ["100Cr6", "42CrMo4", "silicon nitride"], "bodies.load": LOADS}, [0.1]),
     "names alone": (
@@ -261,3 +283,42 @@ def test_a_run_in_time_fits_a_column_and_a_page(tmp_path, drawn, width):
     (figure,) = drawn
     assert faults(figure) == []
     assert figure.get_figheight() <= (COLUMN_HEIGHT if width == WIDTHS["column"] else 8.5)
+
+
+def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
+    """For each speed the mean over all other inputs, between the smallest and the largest f; the largest part of the variance first."""
+    vary, speeds = STUDIES["four keys over two speeds"]
+    result = made_study(vary, speeds)
+    f = 0.01 * np.indices(f_shape := result.status.shape)[0] + 0.002 * np.indices(f_shape)[1] + 0.05
+    f = f * (1 + 0.1 * np.indices(f_shape)[4])
+    study_pictures.plot_study(tmp_path / "study.png", replace(result, columns=result.columns | {"coefficient": f}))
+    panels = drawn[0].axes
+    assert [axes.get_xlabel() for axes in panels][0] == "grade" and len(panels) == len(vary)
+    names = [text.get_text() for text in drawn[0].legends[0].get_texts()]
+    assert names[:2] == ["entrainment speed 0.1 m/s", "entrainment speed 1 m/s"]
+    for axes, along in zip(panels[:2], (result.dims.index("lubricant.grade"), result.dims.index("surface.sq"))):
+        means = [line.get_ydata() for line in axes.lines if line.get_marker() == "o" and len(line.get_xdata()) > 1]
+        others = tuple(axis for axis in range(4) if axis != along)
+        np.testing.assert_allclose(means, f.mean(axis=others).T)
+        ends = [segment[:, 1] for segment in axes.collections[0].get_segments()]
+        np.testing.assert_allclose(ends, np.transpose([f.min(axis=others)[:, 0], f.max(axis=others)[:, 0]]))
+    assert not any(axes.get_title() == "" for axes in panels[:2])
+
+
+def test_a_sample_at_several_speeds_has_the_effects_of_one_at_one_speed():
+    """The values of a sample repeat at each speed alone: the means there hold what the other inputs do."""
+    alone, twice = (made_study({FOUR: SAMPLE}, speeds) for speeds in ([0.1], [0.1, 1.0]))
+    load, sq, *_ = np.transpose(SAMPLE)
+    f = (load * sq**2)[:, None] * np.ones(2)
+    (one, two) = (
+        main_effects(replace(study, columns=study.columns | {"coefficient": f[:, : study.status.shape[1]]}))
+        for study in (alone, twice)
+    )
+    assert one.keys() == two.keys() - {"speed"}
+    assert all(two[key].share == pytest.approx(one[key].share, abs=1e-9) for key in one)
+
+
+@pytest.mark.parametrize("count, is_told_apart", [(6, True), (7, False)])
+def test_lines_of_a_sample_are_drawn_while_each_has_a_name(tmp_path, drawn, count, is_told_apart):
+    study_pictures.plot_study(tmp_path / "study.png", made_study({FOUR: SAMPLE[:count]}, [0.03, 0.1, 0.3]))
+    assert (len(drawn[0].axes) == 1) == is_told_apart
