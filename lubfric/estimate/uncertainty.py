@@ -124,6 +124,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     coefficient : f, of which the parts are relative errors
     interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
         Student's t with ``freedom`` degrees of freedom
+    interval_without_sampling : where ``sampling`` is not known, the interval by all other parts alone, which is too narrow;
+        NaN otherwise
     tolerance : relative requested standard error
     notes : remarks on these errors
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
@@ -139,6 +141,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     coefficient: float = math.nan
     interval: tuple[float, float] = (math.nan, math.nan)
+    interval_without_sampling: tuple[float, float] = (math.nan, math.nan)
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
     model_sides: tuple[float, float] = UNKNOWN_SIDES
@@ -234,14 +237,27 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     def text(self) -> str:
         """The 95 % interval of f and the uncertainty budget, as text."""
         if not math.isfinite(self.sampling):
-            return "; ".join((f"f: {self._in_words('not known')}", *self.notes))
+            known = f"95 % interval of f not known{self._others_in_words}"
+            return "; ".join((f"{known}: {self._in_words('not known')}", *self.notes))
         sampling_in_words = f"{self.budget_in_words['sampling']} of a line of {1e3 * self.length:.3g} mm"
         interval_text = interval_in_words(*self.interval)
         return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling_in_words)}", *self.notes))
 
+    @property
+    def without_sampling_in_words(self) -> str:
+        """The `interval_without_sampling` as text, "0.0413 to 0.0473"; "" where there is none."""
+        if not all(map(math.isfinite, self.interval_without_sampling)):
+            return ""
+        return interval_in_words(*self.interval_without_sampling, value=self.coefficient)
+
+    @property
+    def _others_in_words(self) -> str:
+        words = self.without_sampling_in_words
+        return f" (without the sampling error {words})" if words else ""
+
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in ``notes``."""
-        unknown = "" if math.isfinite(self.sampling) else "; no 95 % interval"
+        unknown = "" if math.isfinite(self.sampling) else f"; no 95 % interval{self._others_in_words}"
         parts = self._in_words(self.budget_in_words["sampling"])
         return f"f = {with_interval(coefficient, *self.interval)}; {parts}{unknown}"
 

@@ -33,11 +33,13 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     scene = prepared.scene
     f = answer.numbers["coefficient"]
     sampling_error = answer.sampling_error
+    has_sampling_error = math.isfinite(sampling_error.value)
+    counted = sampling_error if has_sampling_error else replace(sampling_error, value=0.0)
     of_solve = Uncertainty(
         coefficient=f,
         numerical=answer.numerical,
         sampling=sampling_error.value,
-        interval=interval(f, numerical=answer.numerical, sampling_error=sampling_error, model_error=answer.model_error),
+        interval=interval(f, numerical=answer.numerical, sampling_error=counted, model_error=answer.model_error),
         line_scatter=sampling_error.value * math.sqrt(answer.length / scene.bodies.width),
         effective_contacts=answer.effective_contacts,
         length=answer.length,
@@ -57,7 +59,10 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     uncertainty = with_inputs_not_given(of_solve, answer.not_given)
     if scene.ranges:
         uncertainty = with_input_ranges(uncertainty, changes_by_ranges(prepared, answer))
-    return _resisting_sliding(scene, answer, within_stress_limits(scene, answer, uncertainty))
+    limited = _resisting_sliding(scene, answer, within_stress_limits(scene, answer, uncertainty))
+    if has_sampling_error:
+        return limited
+    return replace(limited, interval=(math.nan, math.nan), interval_without_sampling=limited.interval)
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:

@@ -204,6 +204,10 @@ def status_kind(*, failed: bool, inexact: int) -> str:
     return "inexact" if inexact else ""
 
 
+# What is known of f where the sample is too short for an interval.
+WITHOUT_SAMPLING = "The 95 % interval is not known, because the sampling error is not; the other errors alone give {}."
+
+
 def curve_status(curve: CurveResult) -> str:
     """Return in a sentence whether all points of ``curve`` were solved; the first failure with its message."""
     plural = curve.SWEPT[3]
@@ -262,6 +266,8 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
+    if others := point.uncertainty.without_sampling_in_words:
+        sentences.append(WITHOUT_SAMPLING.format(others))
     sentences.append(_inputs_in_interval(point))
     if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
         sentences.append(SIGN_OF_F)

@@ -493,7 +493,7 @@ def _plot(
 
 
 # How a note begins that says why an error is not known.
-UNKNOWN = "not known: "
+UNKNOWN = "sampling not known: "
 
 
 def _largest_parts(curve: studies.CurveResult) -> list[str]:

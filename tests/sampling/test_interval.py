@@ -162,6 +162,12 @@ def test_a_given_map_is_a_sample_and_its_mirror_image_no_more_of_it():
 def test_one_patch_is_too_short_for_an_interval():
     known = lubfric.friction(PATCH, 0.03).uncertainty
     assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
+    low, high = known.interval_without_sampling  # by hand: what is known, on each side for itself
+    f = known.coefficient
+    towards, away = (math.hypot(known.numerical, known.model_sides[k], known.not_given) for k in (0, 1))
+    assert (low, high) == pytest.approx((f * (1 - towards), f * (1 + away)), rel=1e-9)
+    assert f"interval of f not known (without the sampling error {known.without_sampling_in_words})" in known.text
+    assert known.without_sampling_in_words.startswith(f"{low:.2g}")
     assert (
         "correlation lengths of the solved surface along y are too few for an interval" in known.text
         and known.numerical > 0

@@ -34,7 +34,7 @@ from .scatter import Scatter
 # Relative change of the plastic part over that of the load or the area, at most about. Not measured: it enters
 # an error alone, where no asperity contacts are counted.
 PLASTIC = 3.0
-NO_CELLS = "not known: this contact has no places along y to compare"
+NO_CELLS = "sampling not known: this contact has no places along y to compare"
 
 # Errors of f towards 0 and away from it where the model has none. By definition.
 NO_ERROR = Sides(0.0, 0.0)
@@ -44,7 +44,7 @@ NOT_STUDIED = "the model-form error is not known for this contact"
 MODEL_ERROR_UNKNOWN = "the model-form error is not known and not in the interval: {}"
 TOO_LITTLE = "there was too little of it to estimate"
 NOT_WITHOUT_FILM = "not estimated without a film"
-UNDETECTED_UNKNOWN = "not known: the patch is too short along y to estimate the undetected contact"
+UNDETECTED_UNKNOWN = "sampling not known: the patch is too short along y to estimate the undetected contact"
 
 
 @dataclass(frozen=True, kw_only=True)

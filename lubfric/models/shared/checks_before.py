@@ -84,7 +84,7 @@ UNCUT_LENGTH = 1 + 1e-9
 def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
     """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change."""
     return (
-        f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
+        f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
         f"{_ways_to_interval(scene, sample)}"
     )
 
@@ -106,7 +106,7 @@ def why_too_few_blocks(
     """
     (along, across) = blocks
     return (
-        f"not known: the surface that passes the contact has {counted(along * across, 'nearly independent blocks')} ({along} along the "
+        f"sampling not known: the surface that passes the contact has {counted(along * across, 'nearly independent blocks')} ({along} along the "
         f"motion x {across} along y), and an interval takes {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
         f"({worded(scene.bodies.half_width, 'm')} at this load; a block takes {size_of_block[0]:g}) and {size[1]:.3g} correlation "
         f"lengths wide along y (a block takes {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
