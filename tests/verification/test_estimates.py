@@ -13,7 +13,7 @@ from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, Transient
 from lubfric.studies import estimated_fit, estimated_study
 from verification.campaigns.estimates.jobs import KINDS, drawn
-from verification.campaigns.estimates.table import ratios, table
+from verification.campaigns.estimates.table import ratios, rows, table
 from verification.pace import PAIR, paced
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
@@ -84,6 +84,15 @@ def test_the_table_of_runs_holds_what_the_words_promise():
     apart = np.concatenate([np.abs(np.log(values)) for values in ratios().values()])
     assert apart.size >= 30 and np.mean(apart <= math.log(3)) >= 0.8
     assert [row[0] for row in table().rows] == ["all", *ratios()]
+
+
+@pytest.mark.parametrize("seed", [10011, 10035, 10059])
+def test_moving_roughness_on_few_cells_is_estimated_within_three_of_what_it_took(seed):
+    """On 300 to 500 cells the calls of a Newton step take several times as long as its counted work."""
+    (row,) = (row for row in rows() if row["seed"] == str(seed))
+    estimate = drawn(seed, int(row["draw"])).estimate()
+    taken = float(row["seconds"])
+    assert taken / 3 <= estimate <= 3 * taken
 
 
 def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact():

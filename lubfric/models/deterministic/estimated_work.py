@@ -121,12 +121,12 @@ AT_REST_ON_LONG_CELLS = 0.9
 # it needs (`_needed_strips`) [-]: the strip at rest takes 2 to 9 steps in time of ten runs of ``verification.campaigns.estimates``.
 COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
 
-# Processor time of moving roughness over its counted work [-]: .24 to .95, .6 in the median, of 30 runs of
-# verification.campaigns.estimates on several machines.
-IN_MOTION = 0.6
+# Processor time of moving roughness on many cells over its counted work [-]. Fitted with `SMALL_ARRAYS` to 33 strips of 22 runs of
+# verification.campaigns.estimates, by the deterministic and the quick model, on 280 to 14,400 cells: rms .15 of the logarithm, 1.5 at most.
+IN_MOTION = 0.57
 
-# The same on long cells, whose arrays are small [-]: .38 to 1.1, .8 in the median, of 26 such runs.
-ON_LONG_CELLS = 0.8
+# Cells whose work in a Newton step takes as long as the calls of that step, which the counted work does not have [-]. Fitted.
+SMALL_ARRAYS = 2250.0
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is
 # within `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of
@@ -211,8 +211,10 @@ def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float
     numerics = scene.numerics
     if numerics.model == AUTO and _is_too_costly(scene, sample, surface, speed):
         return WorkEstimate(strips=0, seconds=0.0, has_answer=False, strip_seconds=strip_seconds)
-    ended = math.inf if numerics.max_work is None else IN_MOTION * numerics.max_work
-    affordable = max(1.0, IN_MOTION * MOST_WORK_OF_POINT / strip_seconds)
+    sample_coarsening = sample_coarsening_of(scene, sample)
+    pace = _pace_in_motion(scene, sample, sq=surface.sq, speed=speed, sample_coarsening=sample_coarsening)
+    ended = math.inf if numerics.max_work is None else pace * numerics.max_work
+    affordable = max(1.0, pace * MOST_WORK_OF_POINT / strip_seconds)
     needed = _needed_strips(scene, sample, sq=surface.sq, speed=speed)
     count = min(max(1.0, needed), affordable, sample.available_strips)
     longest = strip_seconds
@@ -398,17 +400,20 @@ def _seconds_in_motion(
 ) -> float:
     """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]: expected, or as its first steps are
     ``measured``."""
+    sample_coarsening = sample_coarsening_of(scene, sample)
     work = moving_point_work(
         scene,
         sample,
         surface,
         speed,
-        sample_coarsening=sample_coarsening_of(scene, sample),
+        sample_coarsening=sample_coarsening,
         course=COURSE_OF_TIME if measured is None else replace(COURSE_OF_TIME, rest=measured.rest),
         factor=None if measured is None else measured.factor,
         passed=_passed(scene, sample, sq=surface.sq, speed=speed),
     )
-    return (IN_MOTION if measured is None else measured.pace) * work
+    if measured is not None:
+        return measured.pace * work
+    return _pace_in_motion(scene, sample, sq=surface.sq, speed=speed, sample_coarsening=sample_coarsening) * work
 
 
 def measured_over_expected(prepared: Prepared, speed: float, measured: FirstSteps) -> float:
@@ -494,7 +499,7 @@ def work_on_long_cells(
             factor=None,
             passed=_passed(scene, sample, sq=sq, speed=speed),
         )
-        return count * ON_LONG_CELLS * work
+        return count * _pace_in_motion(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening) * work
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     length = sum(reach(scene.line_contact(abs(speed)), sq))
@@ -526,32 +531,51 @@ def moving_point_work(
     ``factor``: work of a step in time over that of a contact of which nothing else is known, as for the choice of "auto"; None: what
     is expected of this contact (`StepFacts`). ``passed``: as of `moving_work`.
     """
-    (fx, fy) = sample_coarsening
-    (dx, dy) = sample.cells.spacing
+    cell = sample_coarsening[0] * sample.cells.spacing[0]
     sq = surface.sq
     line = scene.line_contact(abs(speed))
-    effort = effort_for(line, sq, fx * dx)
-    ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
-    cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
+    cells = _cells_in_motion(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
     solved_ends = _solved_ends(scene, surface, speed)
     if not sample.represents_more:  # all of the map passes
         course = replace(course, way=math.inf)
         passed = None
     if factor is None:
-        factor = StepFacts.of(scene, sq=sq, speed=speed, lengths=sample.correlation_lengths, cell=fx * dx).factor
+        factor = StepFacts.of(scene, sq=sq, speed=speed, lengths=sample.correlation_lengths, cell=cell).factor
     return moving_work(
         line,
         sq,
-        cell=fx * dx,
+        cell=cell,
         fastest=fastest,
-        length=sample.cells.columns * dx,
+        length=sample.cells.columns * sample.cells.spacing[0],
         cells=cells,
         continuations=_with_middle(solved_ends),
         course=course,
         factor=factor,
         passed=passed,
     )
+
+
+def _cells_in_motion(
+    scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float]
+) -> float:
+    """Return the number of cells of a strip whose roughness of ``sq`` [m] moves at ``speed`` [m/s], of a length ``sample_coarsening``
+    in those of ``sample``."""
+    (fx, fy) = sample_coarsening
+    (dx, dy) = sample.cells.spacing
+    line = scene.line_contact(abs(speed))
+    effort = effort_for(line, sq, fx * dx)
+    ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
+    return sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
+
+
+def _pace_in_motion(
+    scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float]
+) -> float:
+    """Return the expected processor time of such a strip over its counted work (`SMALL_ARRAYS`); arguments as of
+    `_cells_in_motion`."""
+    cells = _cells_in_motion(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
+    return IN_MOTION * (1.0 + SMALL_ARRAYS / cells)
 
 
 def _solved_ends(scene: Scene, surface: Surface, speed: float) -> int:
