@@ -45,9 +45,11 @@ from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusua
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import (
+    EffectOverTime,
     RunEstimate,
     check_run,
     estimated_run,
+    expected_effects_of_run,
     may_move_roughness,
     periods,
     run_model_of,
@@ -111,7 +113,8 @@ class SceneEstimate:
         costs
     refusals : assumptions that fail by what is known so far, so that f means nothing, or may mean nothing
     severe : those of them for which 'lubfric run' certainly refuses a result
-    effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
+    effects : effects that are not modelled (`lubfric.models.shared.expected_effects`); () of a run in time
+    effects_over_time : the same of a run in time, each at the moment at which it is largest; () of any other scene
     run : steps and time of a run in time; None of any other scene
     """
 
@@ -123,6 +126,7 @@ class SceneEstimate:
     refusals: list[str]
     severe: tuple[Violation, ...]
     effects: tuple[ExpectedEffect, ...]
+    effects_over_time: tuple[EffectOverTime, ...] = ()
     run: RunEstimate | None = None
 
 
@@ -233,16 +237,20 @@ def estimate_scene(
     refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption == may_refuse])
     scene_map = sample.whole_map
     notes = [note for note in scene_map.notes if "nm as measured" in note or " µm used" in note]
-    effects = expected_effects(
-        _fastest_moment(scene),
-        scene_map.sq,
-        scene_speed,
-        includes_motion=may_move_roughness(scene),
-    )
+    effects: tuple[ExpectedEffect, ...] = ()
+    over_time: tuple[EffectOverTime, ...] = ()
+    if scene.transient is not None:
+        over_time = expected_effects_of_run(scene, scene_map.sq, _chosen_times(scene))
+        place = "over the run, each at the moment at which it is largest"
+        rows = [f"at {each.moment_in_words}: {effect_in_words(each.effect)}" for each in over_time]
+    else:
+        effects = expected_effects(scene, scene_map.sq, scene_speed, includes_motion=may_move_roughness(scene))
+        place = f"at {scene_speed:.4g} m/s"
+        rows = [effect_in_words(effect) for effect in effects]
     changes = [
-        f"likely changes of f at {scene_speed:.4g} m/s, estimated with closed forms. Each range covers the asperity load "
+        f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
         "ratios that the result may have; the report has the changes of the result.",
-        *map(effect_in_words, effects),
+        *rows,
     ]
     sections = {
         "transient": changing,
@@ -250,7 +258,7 @@ def estimate_scene(
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes
-        if effects
+        if rows
         else ["none of the known effects would change f by more than its tolerance"],
         "validity": _doubts(at) or ["no limit of the model is exceeded before the solve"],
     }
@@ -263,6 +271,7 @@ def estimate_scene(
         refusals=refusals,
         severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
+        effects_over_time=over_time,
         run=run,
     )
 
@@ -442,20 +451,14 @@ def _speed_table(
 
 
 def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[str, ...]]:
-    """Return the table of a run in time: at some moments and at those of the largest speed and load, with the load, the radius
-    and the viscosity of the moment."""
-    moments = {time: scene_at(scene, time) for time in sampled_times(scene)}
-    times = list(moments)
-    speeds = {time: abs(moment.motion.entrainment_speed) for time, moment in moments.items()}
-    fastest = max(times, key=lambda time: speeds[time])
-    heaviest = max(times, key=lambda time: moments[time].bodies.load)
-    chosen = {*times[:: max(1, len(times) // TABLE_SPEEDS)], fastest, heaviest}
+    """Return the table of a run in time: at `_chosen_times`, with the load and the radius of the moment."""
+    fastest = abs(_fastest_moment(scene).motion.entrainment_speed)
     table: list[tuple[str, ...]] = [
         ("t [s]", "U [m/s]", "load [N]", "radius [mm]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")
     ]
-    for time in sorted(chosen):
-        now = moments[time]
-        is_at_rest = speeds[time] < STANDSTILL_PART * speeds[fastest]
+    for time in _chosen_times(scene):
+        now = scene_at(scene, time)
+        is_at_rest = abs(now.motion.entrainment_speed) < STANDSTILL_PART * fastest
         speed = 0.0 if is_at_rest else now.motion.entrainment_speed
         asperities = estimated_work_of_point(now, sample, surface, speed).asperities
         film = ("", "", "0", "0", "no entrainment")
@@ -464,6 +467,17 @@ def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[
         values = (time, speed, now.bodies.load, 1e3 * now.bodies.radius)
         table.append((*(f"{value:.4g}" for value in values), *film))
     return table
+
+
+def _chosen_times(scene: Scene) -> list[float]:
+    """Return some times [s] of a run, spread evenly, and those of the largest speed, load and Hertz pressure."""
+    moments = {time: scene_at(scene, time) for time in sampled_times(scene)}
+    times = list(moments)
+    evenly = times[:: max(1, len(times) // TABLE_SPEEDS)]
+    fastest = max(times, key=lambda time: abs(moments[time].motion.entrainment_speed))
+    heaviest = max(times, key=lambda time: moments[time].bodies.load)
+    hardest = max(times, key=lambda time: moments[time].bodies.mean_hertz_pressure)
+    return sorted({*evenly, fastest, heaviest, hardest})
 
 
 def _film_in_words(scene: Scene, surface: Surface, speed: float, asperities: str) -> tuple[str, str, str, str, str]:

@@ -26,12 +26,11 @@ from ..models.shared import (
     percent,
     percent_of_sides,
     sentence,
-    unmodelled_effects,
 )
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult
-from ..time import TransientResult, in_motion, may_move_roughness, rolls, run_model_of, scene_at
+from ..time import TransientResult, effects_of_run, in_motion, rolls, run_model_of
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
@@ -629,22 +628,13 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
 
 
 def _history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
-    """Return the table of the effects that are not modelled, at the output at which f is nearest to its mean."""
-    moments = np.flatnonzero(rolls(result.columns))
-    if result.time.size < 2 or not moments.size:
-        return effects_table(estimate.effects, "at the largest speed")
-    index = int(moments[np.argmin(np.abs(result.coefficient[moments] - result.average().coefficient))])
-    time = float(result.time[index])
-    load = result.load[index]
-    effects = unmodelled_effects(
-        scene_at(prepared.scene, time),
-        prepared.surface.sq,
-        abs(float(result.entrainment_speed[index])),
-        (abs(float(result.boundary_force[index] / load)), abs(float(result.coefficient[index]))),
-        run=prepared.scene,
-        includes_motion=may_move_roughness(prepared.scene),
-    )
-    return effects_table(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
+    """Return the table of the effects that are not modelled, each at the output at which it changes f the most."""
+    effects = effects_of_run(prepared, result)
+    place = "of the run, each at the output at which it changes f the most"
+    if result.time.size < 2 or not rolls(result.columns).any():
+        effects = estimate.effects_over_time
+        place = "before the solve, each at the moment at which it changes f the most"
+    return effects_table([each.effect for each in effects], place, [each.moment_in_words for each in effects])
 
 
 def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
@@ -810,18 +800,20 @@ def _history_table(result: TransientResult) -> str:
 # parts that all pages share
 
 
-def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -> str:
-    """Return the table of the effects that are not modelled."""
+def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, moments: Sequence[str] = ()) -> str:
+    """Return the table of the effects that are not modelled; ``moments``: of a run in time, when each is largest."""
     if not effects:
         return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"
+    cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(what))}</td>"
         f'<td class="number">{change_in_words(*changes)}</td>'
-        f"<td>{escape(sentence(advice))}</td>"
-        for what, *changes, advice in effects
+        f"{moment}<td>{escape(sentence(advice))}</td>"
+        for (what, *changes, advice), moment in zip(effects, cells)
     ]
     head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
-    return head + table(["effect", "change of f", "recommendation"], rows, in_sentences=True)
+    heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
+    return head + table(heads, rows, in_sentences=True)
 
 
 def warnings_and_notes(validity: Iterable[str]) -> str:

@@ -1,5 +1,12 @@
 """Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
+from .effects import (
+    EffectOverTime,
+    EffectsOfMoment,
+    effects_of_run,
+    expected_effects_of_run,
+    largest_over_time,
+)
 from .estimated import RunEstimate, periods
 from .film import solve_transient_ehl
 from .film_equations import Spring, StepEquations, outside, outside_shear

@@ -118,7 +118,7 @@ def test_no_report_contradicts_info(model, speed):
 
 def test_a_soft_body_is_answered_with_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
-    (cover,) = [what for what, *_ in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
+    (cover,) = [advice for what, _, advice in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
 
 

@@ -256,8 +256,11 @@ def _of_film(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
             )
     if scene.bodies.e_prime < SOFT_E_PRIME:
-        words = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
-        effects.append((words, math.nan, "give e_prime so that the contact is as wide as measured"))
+        words = (
+            f"a cover counts as thick from {1e3 * DEEP * line.half_width:.2g} mm on; if it is thinner, give e_prime so that "
+            "the contact is as wide as measured"
+        )
+        effects.append(("a thin cover, and its damping", math.nan, words))
     return effects
 
 
