@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -88,6 +88,9 @@ COMMAND_SECONDS = 2.4
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
+# Relative difference of two speeds or slide-roll ratios that are the same but for rounding. A choice: any number between
+# rounding and a digit that a user writes does.
+SPEED_ROUNDING = 1e-9
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
 # digits. A choice: any number between rounding and a speed does.
 STANDSTILL_PART = 1e-8
@@ -277,9 +280,31 @@ def estimate_scene(
 
 
 def _speeds_of(scene: Scene, surface: Surface, speeds: Sequence[float] | str) -> list[float]:
-    """Return ``speeds`` [m/s]; "auto": about those that a curve would choose; (): those of the ``scene``."""
+    """Return ``speeds`` [m/s]; "auto": about those that a curve would choose; (): those of `speeds_of_curve`."""
     chosen = expected_speeds(scene, surface.sq) if isinstance(speeds, str) else speeds
-    return list(chosen) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    return list(chosen) or speeds_of_curve(scene)
+
+
+def speeds_of_curve(scene: Scene) -> list[float]:
+    """Return the speeds [m/s] of the curve that 'lubfric run' solves: those of the ``scene``, and its own speed, which is its
+    operating point, where it belongs to that curve and is not among them."""
+    scene_speed = scene.motion.entrainment_speed
+    speeds = list(scene.motion.speeds)
+    if not speeds:
+        return [scene_speed]
+    if is_among(scene_speed, speeds) or not belongs_to_curve(scene_speed, speeds):
+        return speeds
+    return sorted([*speeds, scene_speed]) if speeds == sorted(speeds) else [*speeds, scene_speed]
+
+
+def is_among(value: float, values: Iterable[float]) -> bool:
+    """Return whether a speed or a ratio is one of the ``values``, but for rounding."""
+    return any(math.isclose(value, other, rel_tol=SPEED_ROUNDING) for other in values)
+
+
+def belongs_to_curve(speed: float, speeds: Iterable[float]) -> bool:
+    """Return whether a ``speed`` [m/s] and the ``speeds`` of a curve are in motion, all in the same direction."""
+    return speed != 0 and all(other * speed >= 0 for other in speeds)
 
 
 def _measured_times(

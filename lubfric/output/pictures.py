@@ -45,12 +45,13 @@ def plot_stribeck(
     violations: Sequence[Sequence[Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
+    operating_point: float = np.nan,
 ) -> None:
     """Draw f, the load ratios and the film over the entrainment speed.
 
     ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``violations``:
     for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured`, drawn with the
-    curve.
+    curve. ``operating_point``: the solved speed [m/s] that is the scene's own; NaN marks none.
     """
     figure, axes = _panels([name for name in PANELS["stribeck"] if name in options.panels], options)
     shown = [*axes.values()]
@@ -62,6 +63,7 @@ def plot_stribeck(
         top = axes["friction"]
         friction_over_speed(top, columns, has_parts=options.has_parts, as_bars=options.has_bars)
         _draw_measured(top, measured)
+        _mark_operating_point(top, c["speed"], speed, c["coefficient"], operating_point)
         _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order], options)
         top.set(xlabel="")
     figures.head(figure, title if options.has_title else "")
@@ -95,6 +97,15 @@ def _draw_measured(axes: Axes, measured: Any, *, is_signed: bool = False) -> Non
     axes.set_ylim(bottom=min(axes.get_ylim()[0], 1.1 * measured.coefficient.min()))
 
 
+def _mark_operating_point(
+    axes: Axes, solved: np.ndarray, x: np.ndarray, coefficient: np.ndarray, operating_point: float
+) -> None:
+    """Mark f at the ``operating_point``, one of the ``solved`` speeds or ratios, at its ``x`` of the axis; NaN marks none."""
+    own = solved == operating_point
+    if own.any():
+        axes.plot(x[own], coefficient[own], "*", color="k", ms=9, label="operating point")
+
+
 def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
     """Draw the full-load film thickness and the central separation over ``speed``, or a slide-roll ratio, and the roughness to
     compare."""
@@ -122,6 +133,7 @@ def plot_traction(
     violations: Sequence[Sequence[Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
+    operating_point: float = np.nan,
 ) -> None:
     """Draw f, the load ratios and the film over the slide-roll ratio, and below, where they were computed, temperatures.
     Arguments as of `plot_stribeck`."""
@@ -140,6 +152,7 @@ def plot_traction(
         top = axes["friction"]
         _traction_over_ratio(top, c, options)
         _draw_measured(top, measured, is_signed=bool((ratio < 0).any()))
+        _mark_operating_point(top, ratio, ratio, c["coefficient"], operating_point)
         _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title if options.has_title else "")
     if "load" in axes:

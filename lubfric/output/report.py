@@ -27,12 +27,12 @@ from ..models.shared import (
     percent_of_sides,
     sentence,
 )
-from ..quantities import COLUMNS, KEYS, counted
+from ..quantities import COLUMNS, KEYS, counted, worded_value
 from ..scene import Scene, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult
 from ..time import TransientResult, effects_of_run, in_motion, rolls, run_model_of
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
-from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
+from .describe import TABLE_CAPTION, SceneEstimate, belongs_to_curve, is_among, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
 from .run_files import captions
 
@@ -50,6 +50,8 @@ OF_OUTPUT = {
     "min_film": "after",
 }
 
+# What follows the scene's own speed or ratio in the table of a curve.
+OPERATING_POINT = " (operating point)"
 # Which force f is, where a reader may ask for its sign.
 SIGN_OF_F = (
     "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 ([surface], U (1 - "
@@ -181,14 +183,14 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
     nearest = _nearest(scene, curve)
     failed = bool(curve.errors)
     point = None if nearest is None else nearest[0]
-    answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(curve, *nearest)
+    answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(scene, curve, *nearest)
     effects = estimate.effects if point is None else point.unmodelled_effects
     return {
         "kind": status_kind(failed=failed, inexact=_largely_inexact(curve)),
         "status": escape(curve_status(curve)),
         "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
-        "table": _operating_table(curve),
+        "table": _operating_table(scene, curve),
         "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
         "sources": bullets(curve.cite().splitlines()),
@@ -258,15 +260,49 @@ def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
     return sentences
 
 
-def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float) -> list[str]:
+def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str = "speed") -> str:
+    """Return in a sentence why a curve over speeds or slide-roll ratios (``name``: "speed", "ratio") has no point at the
+    scene's own one, which is its operating point; "" where it is one of those ``solved``."""
+    value = operating_point_of(scene, name)
+    others = list(solved)
+    if is_among(value, others):
+        return ""
+    key = "motion.entrainment_speed" if name == "speed" else "motion.slide_roll_ratio"
+    what = f"The scene's own {'speed' if name == 'speed' else 'slide-roll ratio'}, {worded_value(key, value)} ({key}), is not solved, "
+    if name == "speed" and value == 0:
+        return f"{what}because a curve over the speed has no point at rest."
+    if name == "speed" and not belongs_to_curve(value, others):
+        return f"{what}because the curve is in the other direction."
+    return f"{what}because --{name}s does not name it."
+
+
+def operating_point_of(scene: Scene, name: str) -> float:
+    """Return the scene's own "speed" [m/s] or slide-roll "ratio"."""
+    return scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
+
+
+def _curve_answer(
+    scene: Scene, curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float
+) -> list[str]:
     """Return the answer of a curve in sentences: at the point nearest to the scene's own, whose surfaces slide at
     ``sliding_speed`` [m/s], and over all."""
+    swept = curve.SWEPT[0]
+    own = operating_point_of(scene, swept)
+    values = getattr(curve, swept).tolist()
+    missing = operating_point_not_solved(scene, values, swept)
+    failed = [index for index in curve.errors if is_among(own, [values[index]])]
+    if failed:
+        missing = f"The scene's own {COLUMNS[swept].label}, {worded_value(swept, own)}, has no answer (see the status)."
+    if len(values) > 1 and not missing:
+        place += ", the operating point of the scene"
     low, high = point.uncertainty.interval
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
     if others := point.uncertainty.without_sampling_in_words:
         sentences.append(WITHOUT_SAMPLING.format(others))
+    if missing:
+        sentences.append(f"{missing} The answer is that of the nearest one that was solved.")
     sentences.append(_inputs_in_interval(point))
     if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
         sentences.append(SIGN_OF_F)
@@ -473,8 +509,9 @@ def _point_budget(point: FrictionResult, place: str) -> str:
     return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels, is_cut=bool(known.cut))
 
 
-def _operating_table(curve: CurveResult) -> str:
-    """Return the table of all points: what was swept, f with its interval, and the numbers of the point."""
+def _operating_table(scene: Scene, curve: CurveResult) -> str:
+    """Return the table of all points: what was swept, f with its interval, and the numbers of the point. That of the scene's
+    own speed or ratio is named where there are others."""
     swept = curve.SWEPT[0]
     names = (swept, *OF_POINT)
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
@@ -485,6 +522,8 @@ def _operating_table(curve: CurveResult) -> str:
     rows = []
     for index, point in enumerate(curve.points):
         place = f"{shown[swept][index]:.4g}"
+        if len(curve.points) > 1 and is_among(operating_point_of(scene, swept), [values[swept][index]]):
+            place += OPERATING_POINT
         if point is None:
             why = escape(str(curve.errors[index]))
             rows.append(f'{_cells([place])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
@@ -592,7 +631,7 @@ def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str, flo
     """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no point
     has an answer."""
     name = curve.SWEPT[0]
-    scene_value = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
+    scene_value = operating_point_of(scene, name)
     away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - scene_value), np.inf)
     index = int(away.argmin())
     point = curve.points[index]

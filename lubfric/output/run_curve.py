@@ -38,13 +38,13 @@ from ..scene import (
 from ..units import number_and_unit, number_of, numbers_of, with_interval
 from .commands import RepeatedRun, RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
-from .describe import SceneEstimate, rolling_in_words
+from .describe import SceneEstimate, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, read_contact, vtk_bytes
 from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
-from .report import gap_notes
+from .report import gap_notes, operating_point_not_solved, operating_point_of
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, names_of_run
 from .study_pictures import plot_study
 
@@ -183,7 +183,8 @@ def _write(
             columns = read_table(folder.path / table, contents[table])
             if _drawable(columns).any():
                 title = _title(prepared.scene.name, numbers)
-                folder.draw(f"{name}.png", _plot, columns, title, numbers, measured)
+                own = operating_point_of(prepared.scene, curve.SWEPT[0])
+                folder.draw(f"{name}.png", _plot, columns, title, numbers, measured, PictureOptions(), own)
     with folder.reporting("the fields were not written"):
         _write_fields(folder, prepared, curve, chosen, vtk=arguments.vtk)
     law: studies.Law | str = ""
@@ -198,7 +199,10 @@ def _write(
     with folder.reporting("report.html is without the inputs as they were given"):
         given = given_tables(arguments.scene)
     again = _repeated(prepared.scene, curve, arguments)
-    folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, points=numbers)
+    own = operating_point_of(prepared.scene, curve.SWEPT[0])
+    folder.complete(
+        prepared, estimate, given, curve, units, law, unusual_values, again, points=numbers, operating_point=own
+    )
 
 
 def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) -> RepeatedRun:
@@ -208,7 +212,7 @@ def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) ->
     options = () if arguments.fields is None else (f"--fields={arguments.fields}",)
     if arguments.speeds is None:
         return RepeatedRun(scene=scene, options=options)
-    if arguments.speeds != studies.AUTO_SPEEDS:
+    if arguments.speeds != studies.AUTO_SPEEDS and is_among(scene.motion.entrainment_speed, curve.speed.tolist()):
         with suppress(InputError):  # speeds that a scene does not take
             return RepeatedRun(scene=scene.with_(motion={"speeds": tuple(curve.speed.tolist())}), options=options)
     return RepeatedRun(scene=scene, options=(f"--speeds={arguments.speeds}", *options))
@@ -256,6 +260,12 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
         return curve.law()
     except InputError as why:
         return str(why)
+
+
+def _operating_point_of_record(record: dict[str, Any]) -> float:
+    """Return the scene's own speed [m/s] or slide-roll ratio that a ``record`` has; NaN where it has none."""
+    value = record.get("operating_point")
+    return float(value) if isinstance(value, (int, float)) else math.nan
 
 
 def _drawable(columns: Columns) -> np.ndarray:
@@ -320,7 +330,13 @@ def plot_again(arguments: Namespace) -> None:
     else:
         points = _points_of(folder / f"{name}.csv", columns, record)
         again = partial(
-            _plot, columns=columns, title=_title(title, points), points=points, measured=measured, options=options
+            _plot,
+            columns=columns,
+            title=_title(title, points),
+            points=points,
+            measured=measured,
+            options=options,
+            operating_point=_operating_point_of_record(record),
         )
     _write_picture(arguments, name, again)
 
@@ -475,8 +491,10 @@ def _plot(
     points: list[dict[str, Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
+    operating_point: float = math.nan,
 ) -> None:
-    """Draw the picture of the table of a curve; ``points``: those of its record."""
+    """Draw the picture of the table of a curve; ``points``: those of its record; ``operating_point``: the scene's own speed
+    [m/s] or slide-roll ratio."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
     known = [
         [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
@@ -489,7 +507,11 @@ def _plot(
         title = "\n".join([f"{first}, U = {speed:g} m/s", *others])
     if options.is_narrow:  # what the answers rest on is for the caption
         title = title.splitlines()[0]
-    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
+    swept = columns["ratio" if "ratio" in columns else "speed"]
+    own = [value for value in swept[_drawable(columns)].tolist() if is_among(value, [operating_point])]
+    plot = plot_traction if "ratio" in columns else plot_stribeck
+    marked = own[0] if own and swept.size > 1 else math.nan
+    plot(path, columns, title, violations, measured, options, operating_point=marked)
 
 
 # How a note begins that says why an error is not known.
@@ -567,7 +589,8 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
     chosen = parse_speeds("--fields", fields)
     if speeds == studies.AUTO_SPEEDS:
         return studies.AUTO_SPEEDS, [abs(u) for u in chosen or [own] if u != 0]
-    requested = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [own]
+    requested = parse_speeds("--speeds", speeds) or speeds_of_curve(scene)
+    _say_operating_point(scene, requested, are_of_command=speeds is not None)
     validate.array("speeds", requested, "m/s", ndim=1)
     if not chosen:
         return requested, [min(requested, key=lambda speed: abs(speed - own))]
@@ -583,6 +606,21 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
             f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, whose fields are drawn (--fields)"
         )
     return (sorted(solved) if requested == sorted(requested) else solved), with_fields
+
+
+def _say_operating_point(scene: Scene, requested: list[float], *, are_of_command: bool) -> None:
+    """Say whether the scene's own speed is solved beside the ``requested`` speeds [m/s], or why it is not; nothing where it is
+    one of them. ``are_of_command``: the speeds are those of --speeds."""
+    own = scene.motion.entrainment_speed
+    in_scene = scene.motion.speeds
+    if is_among(own, requested):
+        if not are_of_command and in_scene and not is_among(own, in_scene):
+            say(
+                f"{counted(len(in_scene), 'speeds')} in the scene; added: {own:.4g} m/s, its own speed "
+                "(motion.entrainment_speed), the operating point"
+            )
+        return
+    say(f"{operating_point_not_solved(scene, requested)} The operating point of the report is the speed nearest to it.")
 
 
 def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:

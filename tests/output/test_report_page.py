@@ -133,7 +133,7 @@ def test_a_report_opens_whole_and_runs_nothing(run):
         numbers = map(float, re.findall(r"\d+\.\d+", seen["answer"])[:3])
         for number, exact in zip(numbers, (point["coefficient"], low, high)):
             assert number == pytest.approx(exact, abs=0.06 * (high - low))
-        assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s.")
+        assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s, the operating point of the scene.")
         bars = [float(bar.removesuffix("%")) for bar in seen["bars"]]
         assert seen["longest"] > 200  # px: on a phone it has a row of its own
         np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
