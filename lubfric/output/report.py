@@ -617,8 +617,9 @@ def _law(law: Law | str, curve: CurveResult) -> str:
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
         deviation, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
+        warning = f'<p class="warning">{escape(sentence(_without_head(law.warning)))}</p>' if law.warning else ""
         text = (
-            "<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
+            f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
             f"most {deviation} from the curve through the solved points, which is known within {within} between them. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )

@@ -195,6 +195,8 @@ def _write(
             contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
     with folder.reporting("the uncertainty of f was not reported"):
         unusual_values = [*_largest_parts(curve), *_doubts(prepared.scene, curve)]
+    if isinstance(law, studies.Law):
+        unusual_values.append(f"formula of the curve (law.json, law.c): {law.warning or law.error_in_words}")
     given: dict[str, Any] = {}
     with folder.reporting("report.html is without the inputs as they were given"):
         given = given_tables(arguments.scene)

@@ -24,6 +24,10 @@ USABLE_ERROR = 0.02
 # Fewest points of a law. A choice: more than the law has parameters.
 FEWEST_POINTS = 12
 
+# Largest relative deviation of a law from the curves to which it is fitted, above which it has a warning. A choice, as wide
+# as many intervals of f: above it the formula, and not f, limits what a simulation shows.
+LARGEST_OF_LAW = 0.1
+
 MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 
 # Relative distance by which a number may lie outside a range. A choice, above rounding.
@@ -126,6 +130,21 @@ class Law(Shown):
         return value(self.numbers, *given.values())
 
     @property
+    def error_in_words(self) -> str:
+        """How far the formula deviates from the curves to which it is fitted, as text."""
+        return f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves"
+
+    @property
+    def warning(self) -> str:
+        """Why the formula should not be used, where it deviates by more than `LARGEST_OF_LAW`; else ""."""
+        if self.largest <= LARGEST_OF_LAW:
+            return ""
+        return (
+            f"warning: the formula deviates by up to {100 * self.largest:.2g} % from the solved curves, above {100 * LARGEST_OF_LAW:g} %. "
+            "Recommendation: interpolate the table of the curve"
+        )
+
+    @property
     def text(self) -> str:
         """The formula, its numbers, range and error."""
         (low, high), T, p = self.ranges.values()
@@ -133,9 +152,10 @@ class Law(Shown):
         return "\n".join(
             [
                 f"friction of {self.name} over U (m/s), T (K), mean Hertz pressure p (Pa)",
+                *([f"  {self.warning}"] if self.warning else []),
                 *(f"  {name} = {expression}" for name, expression in _expressions(self.numbers).items()),
                 "  with " + ", ".join(f"{name} = {number:.6g}" for name, number in self.numbers.items()),
-                f"  off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves; "
+                f"  {self.error_in_words}; "
                 + (known if np.isfinite(self.interval) else "the error of the points is not known"),
                 f"  for |U| up to {high:.4g} m/s, slower than {low:.4g} m/s continued to 0 at rest; "
                 f"{_range('T', T, 'K')}; {_range('p', p, 'Pa')}",
@@ -146,7 +166,10 @@ class Law(Shown):
     def json(self) -> str:
         """All of it as JSON, with units; ``formula`` is to be computed line by line."""
         units = {name: unit for name, unit in SYMBOLS.values()}
-        return json.dumps(plain(asdict(self) | {"formula": _expressions(self.numbers), "units": units}), indent=1)
+        return json.dumps(
+            plain(asdict(self) | {"warning": self.warning, "formula": _expressions(self.numbers), "units": units}),
+            indent=1,
+        )
 
     @property
     def c(self) -> str:

@@ -1,6 +1,7 @@
 """A curve and a study as a formula: as close as it says, smooth and odd through rest, and the same in C."""
 
 import ctypes
+import dataclasses
 import json
 import math
 import shutil
@@ -8,12 +9,18 @@ import subprocess
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 from small_study import SCENE
 
 import lubfric
+from lubfric.output import main
 from lubfric.studies import law_of
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
+QUICK = (
+    BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.1\n[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n"
+    '[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n[numerics]\nsampling = "patch"\nmodel = "paper"\n'
+)
 # K, N
 WARM = [333.15, 353.15]
 LOADS = [4.0, 8.0]
@@ -141,3 +148,29 @@ def test_what_it_cannot_hold_is_refused(study):
         lubfric.stribeck(SCENE, [0.02, 0.1, 3.0]).law()
     with pytest.raises(lubfric.InputError, match="varies surface.sq as well"):
         lubfric.study(SCENE, {"surface.sq": [1e-7, 2e-7]}, [1.0]).law()
+
+
+def test_a_law_that_misses_its_own_points_has_a_warning_before_all_else(law):
+    """In its text, in C and in JSON; one within the limit states its error without a warning."""
+    poor = dataclasses.replace(law, largest=0.72)
+    assert "warning" not in law.text and law.error_in_words in law.c.split("*/")[0] and law.warning == ""
+    for limit, has_warning in ((0.1, False), (0.1001, True)):
+        assert bool(dataclasses.replace(law, largest=limit).warning) == has_warning
+    assert poor.warning.startswith("warning: the formula deviates by up to 72 % from the solved curves, above 10 %.")
+    assert poor.c.splitlines()[2] == f" *   {poor.warning}" and json.loads(poor.json)["warning"] == poor.warning
+
+
+def test_the_command_states_the_error_of_the_law_that_it_writes(law, tmp_path, monkeypatch, capsys):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(QUICK)
+    for largest, words in (
+        (0.72, "warning: the formula deviates by up to 72 %"),
+        (0.03, "3 % at most, from the solved"),
+    ):
+        written = dataclasses.replace(law, largest=largest)
+        monkeypatch.setattr(lubfric.StribeckResult, "law", lambda _, written=written: written)
+        assert main(["run", str(scene), "--speeds", "0.05,0.1,0.2", "--out", str(tmp_path / "out")]) == 0
+        assert words in " ".join(capsys.readouterr().err.split("formula of the curve (law.json, law.c): ")[1].split())
+        assert ("The formula deviates by up to 72 %" in (tmp_path / "out" / "report.html").read_text()) == (
+            largest > 0.1
+        )
