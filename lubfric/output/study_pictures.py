@@ -10,7 +10,7 @@ import numpy as np
 from .. import studies
 from .._base import figures
 from ..quantities import COLUMNS
-from .effect_pictures import draw_effects
+from .effect_pictures import FEW_SPEEDS, draw_effects
 from .picture_options import PictureOptions
 
 if TYPE_CHECKING:
@@ -85,7 +85,11 @@ def _key_of_axis(result: studies.StudyResult) -> str:
     longer = {key: values for key, (dim, values) in result.coords.items() if lengths[dim] > 1}
     if result.chosen or studies.SPEED in longer:
         others = {key: values for key, values in longer.items() if key != studies.SPEED}
-        return studies.SPEED if _are_lines_distinct(result, others) else ""
+        is_sparse = not result.chosen and len(result.plan.speeds) <= FEW_SPEEDS
+        axes_of_lines = {result.coords[key][0] for key in others}
+        return (
+            studies.SPEED if _are_lines_distinct(result, others) and not (is_sparse and len(axes_of_lines) > 2) else ""
+        )
     dims = [result.coords[key][0] for key in longer]
     if not longer or len(set(dims)) < len(dims):
         return ""

@@ -44,11 +44,13 @@ from ..studies import (
     label,
     main_effects,
     mean_over_cycle,
+    name_of,
     place_in_words,
     scenes_of,
 )
 from ..time import may_move_roughness
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
+from .best_designs import best_lines, best_table
 from .inputs import INPUT_SECTIONS, inputs
 from .report import (
     effects_table,
@@ -151,6 +153,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
         warnings=(_list(warnings) if warnings else "<p>No checked limit of the model is exceeded.</p>")
         + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
+        best=best_table(result),
         about=about,
         table=_table(result, rows) + _details(result, rows) + _effects_table(result),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
@@ -325,7 +328,7 @@ def _largely_inexact(result: StudyResult) -> int:
 
 def _range(key: str, values: np.ndarray) -> str:
     """Return the values of a key in a line: all if they are few, else their range."""
-    label = COLUMNS[key].label if key in COLUMNS else key
+    label = name_of(key)
     if values.dtype.kind == "f" and values.size > 6:
         ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))
         return f"{label}: {ends}" if " to " not in ends else f"{label}: {values.size} values, {ends}"
@@ -367,7 +370,7 @@ def _column(
     """Return the heading of the column ``name`` with its unit, and its cells at the points that are ``picked``."""
     values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
     quantity = COLUMNS.get(name)
-    head = quantity.label if quantity else name
+    head = name if name == ASPERITY_LOAD_RATIO else name_of(name)
     if values.dtype.kind != "f":
         return head, [str(value) for value in values]
     if name == "lubricant.temperature":
@@ -561,6 +564,7 @@ def answer_lines(result: StudyResult) -> list[str]:
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
     by_alpha = alpha_in_words(_effects_at_largest(result)[1], "the largest f")
+    rows += best_lines(result)
     return [*rows, *_budget_line(result), *filter(None, [by_alpha]), *_main_effects_line(result)]
 
 
@@ -570,10 +574,7 @@ def _main_effects_line(result: StudyResult) -> list[str]:
     if not effects:
         return []
     trends = {-1: ", on average f falls with it", 0: "", 1: ", on average f rises with it"}
-    words = [
-        f"{COLUMNS[key].label if key in COLUMNS else key} {percent(effect.share)}{trends[effect.slope]}"
-        for key, effect in effects.items()
-    ]
+    words = [f"{name_of(key)} {percent(effect.share)}{trends[effect.slope]}" for key, effect in effects.items()]
     return [
         f"Parts of the variance of ln f over the points, by each input alone: {'; '.join(words)}. The remaining part comes "
         "from combinations of inputs."

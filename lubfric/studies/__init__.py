@@ -1,8 +1,10 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .._base.processes import MOST_WORKERS, cluster, pool, processors
+from .best import BestDesign, best, best_mean
 from .choose import AUTO_SPEEDS, each_once, expected_speeds, span
 from .codec import classes_of, decode, encode, fits
+from .conditions import design_keys, operating_keys
 from .curve import CurveResult, csv_bytes
 from .explain import WITHIN_WORDS, estimated_study, in_words
 from .fit import estimated_fit, explain_fit, fit

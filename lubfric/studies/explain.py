@@ -16,6 +16,7 @@ from ..models import prepare
 from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
+from .conditions import design_keys, operating_keys
 from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
@@ -165,6 +166,10 @@ def explain(plan: Any, store: Path | None = None) -> str:
         lines.append(f"      about {EXPECTED_SPEEDS} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is ignored")
+    conditions = operating_keys(plan)
+    designs = design_keys(plan)
+    if conditions and designs and not plan.chooses_speeds:
+        lines.append(f"  designs  ({', '.join(designs)}) are compared at each condition ({', '.join(conditions)})")
     table = StudyTable(plan)
     table.read(Store(store))
     held = len(table.ended) if plan.chooses_speeds else table.solved

@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,9 @@ from ..errors import InputError
 from ..estimate import MethodUse, cited, methods_of
 from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import warnings_in_cell
-from ..quantities import NUMBERS
+from ..quantities import NUMBERS, OF_UNCERTAINTY
 from ..scene import Scene
+from .best import best, best_mean
 from .interpolate import Interpolant, through
 from .law import law_of_study
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
@@ -32,6 +34,8 @@ from .study_table import StudyTable
 from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
+# Columns of the uncertainty, which a study has even if no point of it is solved.
+COLUMNS_OF_ERRORS = (*chain(*INTERVAL_COLUMNS.values()), *(f"uncertainty_{name}" for name in OF_UNCERTAINTY))
 # Points that a process of an executor receives at once. A choice: more waits for longer, fewer cost messages.
 POINTS_AT_ONCE = 8
 
@@ -62,6 +66,8 @@ class StudyResult(Renamed, Shown):
     _RENAMED = {"cautioned": "with_warnings"}
 
     plot = plot
+    best = best
+    best_mean = best_mean
     law = law_of_study
     to_csv = to_csv
     to_frame = to_frame
@@ -368,6 +374,7 @@ def result_of_table(table: StudyTable) -> StudyResult:
     """Return the result of a ``table``."""
     columns, status, validity = table.cut()
     names = [name for name in NUMBERS if name in columns or name != SPEED or table.plan.chooses_speeds]
+    names += [name for name in COLUMNS_OF_ERRORS if name not in names]
     missing = np.full(status.shape, np.nan)
     ordered = {name: columns.get(name, missing) for name in names}
     return StudyResult(table.plan, ordered | columns, status, validity)

@@ -1,0 +1,161 @@
+"""Which combination of design has the lowest friction at each operating condition of a study, in sentences and as a table of
+report.html."""
+
+from __future__ import annotations
+
+from collections import Counter
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from ..quantities import COLUMNS, worded_value
+from ..studies import (
+    ORDERED_BY,
+    BestDesign,
+    StudyResult,
+    best,
+    best_mean,
+    design_keys,
+    name_of,
+    operating_keys,
+)
+from ..units import with_interval
+from .report import table
+
+# Operating conditions up to which each has a sentence, and combinations that a sentence names. Choices: more makes a table of a
+# text.
+MOST_SENTENCES = 6
+MOST_NAMED = 3
+
+# Rows of the table of operating conditions, at most. A choice: more is read from study.csv.
+MOST_CONDITIONS = 200
+
+# Columns of a table of operating points from which its others follow: they say enough of a condition.
+GIVEN_SPEEDS = ("u1", "u2")
+
+RULE = (
+    "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and where an operating point lies; all "
+    "else that is varied is design, but seeds and keys of [numerics] and [contact]. Two points cannot be distinguished where their numbers differ by less than the root sum of "
+    "squares of the parts of their 95 % intervals that face each other (errors taken as independent; those that points have in "
+    "common make a difference better known than that), or where an interval is not known."
+)
+
+
+def values_in_words(values: dict[str, Any]) -> str:
+    """Return ``values`` [SI] by their keys as text."""
+    words = []
+    for key, value in values.items():
+        words.append(f"{name_of(key)} {worded_value(key, value) if isinstance(value, float) else value}")
+    return ", ".join(words)
+
+
+def condition_in_words(condition: dict[str, Any]) -> str:
+    """Return an operating ``condition`` as text: where it lies, if that is known, else the values that it has."""
+    places = {key: value for key, value in condition.items() if key in ORDERED_BY}
+    surfaces = {key: value for key, value in condition.items() if key in GIVEN_SPEEDS}
+    others = {
+        key: value
+        for key, value in condition.items()
+        if not surfaces or key not in ("speed", "motion.slide_roll_ratio")
+    }
+    return values_in_words(places or others)
+
+
+def has_designs(result: StudyResult) -> bool:
+    """Return whether a study compares combinations of design at speeds that they have in common."""
+    return not result.chosen and bool(design_keys(result.plan)) and bool(np.isfinite(result["coefficient"]).any())
+
+
+def best_lines(result: StudyResult) -> list[str]:
+    """Return in sentences which combination of design has the lowest f at each operating condition, and which has the lowest mean:
+    of f, or of operating points of the power loss; none where no designs are compared."""
+    if not has_designs(result):
+        return []
+    best_ones = best(result)
+    lines = []
+    if best_ones and not operating_keys(result.plan):
+        lines.append(f"The smallest friction coefficient: {_comparison(best_ones[0])}")
+    elif 0 < len(best_ones) <= MOST_SENTENCES:
+        lines += [
+            f"At {condition_in_words(one.condition)}, f is lowest with {values_in_words(one.design)} (point {one.row}): "
+            f"{_number(one, '-')}. {_comparison(one)}"
+            for one in best_ones
+        ]
+    elif best_ones:
+        lines.append(_summary(best_ones))
+    quantity = "power_loss" if result.paired else "coefficient"
+    mean = best_mean(result, quantity)
+    if mean is not None:
+        name = "power loss" if result.paired else "friction coefficient"
+        lines.append(
+            f"The mean {name} over all operating conditions is lowest with {values_in_words(mean.design)}: "
+            f"{_number(mean, COLUMNS[quantity].unit)}. {_comparison(mean)}"
+        )
+    return lines
+
+
+def _number(one: BestDesign, unit: str) -> str:
+    return with_interval(one.value, *one.interval, unit=unit)
+
+
+def _comparison(one: BestDesign) -> str:
+    """Return from which other combinations the best ``one`` cannot be distinguished, in sentences."""
+    others = one.compared - 1
+    if not one.rivals:
+        than = "the other combination" if others == 1 else f"all {others} other combinations"
+        return f"It is lower than with {than} by more than the intervals."
+    if not np.isfinite(one.interval[0]):
+        return "Its interval is not known, so that it cannot be distinguished from the other combinations."
+    count = f"{len(one.rivals)} of the {others} other combinations"
+    if len(one.rivals) == others:
+        count = "the other combination" if others == 1 else f"any of the {others} other combinations"
+    named = "; ".join(values_in_words(rival) for rival in one.rivals[:MOST_NAMED])
+    more = "; ..." if len(one.rivals) > MOST_NAMED else ""
+    common = values_in_words(one.common_design)
+    alike = f" All of these have {common}." if common and others > len(one.rivals) else ""
+    unknown = f" The interval of {one.unknown_rivals} of these is not known." if one.unknown_rivals else ""
+    return f"Within the intervals it cannot be distinguished from {count} ({named}{more}).{alike}{unknown}"
+
+
+def _summary(best_ones: tuple[BestDesign, ...]) -> str:
+    """Return in a sentence or two which combinations are the best of many operating conditions."""
+    counts = Counter(values_in_words(one.design) for one in best_ones)
+    words = "; ".join(f"with {name} at {count}" for name, count in counts.most_common(MOST_NAMED))
+    more = "; ..." if len(counts) > MOST_NAMED else ""
+    clear = sum(not one.rivals for one in best_ones)
+    text = f"Of {len(best_ones)} operating conditions f is lowest {words}{more or '.'}"
+    distinct = f"At {clear} of them it is lower than with all other combinations by more than the intervals"
+    return f"{text} {distinct if clear else 'At none of them can it be distinguished from all other combinations within the intervals'}; report.html has all."
+
+
+def best_table(result: StudyResult) -> str:
+    """Return the part of a report that has the best combination of each operating condition; "" where no designs are compared or
+    there is one condition."""
+    best_ones = best(result) if has_designs(result) else ()
+    if not best_ones or not operating_keys(result.plan):
+        return ""
+    rows = []
+    for one in best_ones[:MOST_CONDITIONS]:
+        texts = (condition_in_words(one.condition), values_in_words(one.design), _number(one, "-"), str(one.row))
+        cells = "".join(f"<td>{escape(text)}</td>" for text in texts)
+        rows.append(f"{cells}<td>{escape(_rivals_in_words(one))}</td>")
+    heads = ["operating condition", "design with the lowest f", "f", "no.", "cannot be distinguished from"]
+    some = f" The first {MOST_CONDITIONS} of {len(best_ones)} conditions." if len(best_ones) > MOST_CONDITIONS else ""
+    return f"<h2>Lowest friction at each operating condition</h2><p>{RULE}{some}</p>{table(heads, rows)}"
+
+
+def _rivals_in_words(one: BestDesign) -> str:
+    """Return the combinations that the best ``one`` cannot be distinguished from, for a cell of a table."""
+    if not one.rivals:
+        return "none"
+    if len(one.rivals) == one.compared - 1 and len(one.rivals) > MOST_NAMED:
+        why = f" (the interval of {one.unknown_rivals} of them is not known)" if one.unknown_rivals else ""
+        why = why if np.isfinite(one.interval[0]) else ": its interval is not known"
+        return f"any of the {len(one.rivals)} others{why}"
+    named = [
+        f"{values_in_words(rival)} (no. {row})"
+        for rival, row in zip(one.rivals[:MOST_NAMED], one.rival_rows[:MOST_NAMED])
+    ]
+    others = [str(row) for row in sorted(one.rival_rows[MOST_NAMED:])]
+    return "; ".join([*named, *([f"no. {', '.join(others)}"] if others else [])])

@@ -1,0 +1,120 @@
+"""The best combination of design at each operating condition, found again with loops over the points."""
+
+import itertools
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_study import SCENE
+
+import lubfric
+from lubfric.output import best_designs, study_report
+from lubfric.studies import StudyResult
+
+LOADS = [3.0, 5.0, 8.0]
+SQ = [5e-8, 1e-7, 2e-7]
+MATERIALS = ["100Cr6", "silicon nitride"]
+SPEEDS = [0.1, 1.0]
+VARY = {"surface.sq": SQ, "bodies.load": LOADS, "bodies.material": MATERIALS}
+
+
+def made(f, half_width, **plan):
+    """A study of ``VARY`` at ``SPEEDS`` with made numbers: nothing is solved."""
+    planned = lubfric.plan_study(SCENE, **({"vary": VARY, "speeds": SPEEDS} | plan))
+    columns = {"coefficient": f, "uncertainty_low": f - half_width, "uncertainty_high": f + half_width}
+    columns |= {"power_loss": 10 * f, "power_loss_low": 10 * (f - half_width), "power_loss_high": 10 * (f + half_width)}
+    columns |= {"film_load": np.ones(planned.shape)}
+    numbers = dict.fromkeys(lubfric.study(SCENE, {}, [0.3]).columns, np.zeros(planned.shape)) | columns
+    return StudyResult(planned, numbers, np.full(planned.shape, "converged"), np.full(planned.shape, "", dtype=object))
+
+
+RANDOM = np.random.default_rng(3)
+F = RANDOM.uniform(0.05, 0.1, (3, 3, 2, 2))
+WIDTH = RANDOM.uniform(0.001, 0.02, F.shape)
+
+
+def test_the_best_design_of_each_condition_is_that_of_loops_over_the_points():
+    found = {tuple(one.condition.values()): one for one in made(F, WIDTH).best()}
+    assert len(found) == len(LOADS) * len(SPEEDS)
+    for (j, load), (m, speed) in itertools.product(enumerate(LOADS), enumerate(SPEEDS)):
+        one = found[load, speed]
+        designs = {(sq, name): (i, k) for (i, sq), (k, name) in itertools.product(enumerate(SQ), enumerate(MATERIALS))}
+        ordered = sorted(designs, key=lambda design: F[designs[design][0], j, designs[design][1], m])
+        (i, k) = designs[ordered[0]]
+        assert tuple(one.design.values()) == ordered[0] and one.value == F[i, j, k, m]
+        assert one.row == np.ravel_multi_index((i, j, k, m), F.shape) + 1 and one.compared == 6
+        near = []
+        for design in ordered[1:]:
+            (a, b) = designs[design]
+            if F[a, j, b, m] - F[i, j, k, m] <= math.hypot(WIDTH[i, j, k, m], WIDTH[a, j, b, m]):
+                near.append(design)
+        assert [tuple(rival.values()) for rival in one.rivals] == near
+
+
+@pytest.mark.parametrize("width, count", [(0.0, 0), (1.0, 5), (math.nan, 5)])
+def test_points_are_told_apart_as_their_intervals_are_narrow_or_wide(width, count):
+    result = made(F, width * np.ones(F.shape))
+    assert {len(one.rivals) for one in result.best()} == {count}
+    words = " ".join(best_designs.best_lines(result))
+    expected = {0: "more than the intervals", 1: "cannot be distinguished from any of the 5 other"}.get(
+        width, "interval is not known"
+    )
+    assert expected in words
+
+
+def test_the_mean_over_all_conditions_has_the_mean_of_the_intervals():
+    mean = made(F, WIDTH).best_mean()
+    means = F.mean(axis=(1, 3))
+    (i, k) = np.unravel_index(means.argmin(), means.shape)
+    assert mean.design == {"surface.sq": SQ[i], "bodies.material": MATERIALS[k]}
+    width = WIDTH.mean(axis=(1, 3))[i, k]
+    assert mean.value == pytest.approx(means.min())
+    assert mean.interval == pytest.approx((means.min() - width, means.min() + width))
+
+
+def test_a_cycle_is_compared_by_its_mean_power_loss_weighted_by_the_durations():
+    cycle = {"load [N]": [3, 5], "speed [m/s]": [0.1, 0.2], "position [m]": [0, 1], "duration [s]": [1.0, 9.0]}
+    f = np.array([[0.05, 0.09], [0.09, 0.05]])  # (Sq, point): the second is better where it counts
+    result = made(f, 0.0 * f, vary={"surface.sq": SQ[:2]}, speeds=None, points=cycle)
+    assert result.best_mean("power_loss").design == {"surface.sq": SQ[1]}
+    assert result.best_mean("power_loss").value == pytest.approx(10 * (0.1 * 0.09 + 0.9 * 0.05))
+    assert [one.design["surface.sq"] for one in result.best()] == SQ[:2]
+    assert "At position on the path of contact 1 m, f is lowest" in " ".join(best_designs.best_lines(result))
+
+
+def test_seeds_and_numerics_are_no_design():
+    plan = lubfric.plan_study(
+        SCENE, {"surface.seed": [1, 2], "surface.sq": SQ, "numerics.heat": ["auto", "off"]}, [0.1]
+    )
+    assert lubfric.studies.design_keys(plan) == ("surface.sq",)
+    assert "designs  (surface.sq) are compared at each condition (surface.seed, numerics.heat)" in plan.explain()
+
+
+def test_a_negative_f_counts_by_its_magnitude():
+    f = np.array([-0.02, 0.01])
+    result = made(f[:, None], np.array([[0.001], [0.03]]), vary={"surface.sq": SQ[:2]}, speeds=[0.1])
+    (one,) = result.best()
+    assert one.value == 0.01 and one.interval == pytest.approx((0.0, 0.04))
+
+
+def test_curves_that_chose_their_speeds_are_not_compared():
+    result = made(F[..., :1], WIDTH[..., :1], speeds=[0.1])
+    chosen = replace(result, plan=replace(result.plan, speeds=()))
+    with pytest.raises(lubfric.InputError, match="give speeds"):
+        chosen.best()
+    assert best_designs.best_lines(chosen) == []
+
+
+def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distinguished_from():
+    result = made(F, WIDTH)
+    page = study_report.study_page(result, {}, study_report.answer_lines(result)).decode()
+    part = page.split("Lowest friction at each operating condition")[1].split("</table>")[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", part, re.DOTALL)[1:]
+    for row, one in zip(rows, result.best(), strict=True):
+        cells = re.findall(r"<td[^>]*>([^<]*)</td>", row)
+        assert cells[3] == str(one.row)
+        numbers = re.findall(r"no\. (\d+)", cells[4])
+        assert [int(number) for number in numbers] == [*one.rival_rows[:3], *sorted(one.rival_rows[3:])][: len(numbers)]
+        assert (cells[4] == "none") == (not one.rivals)
