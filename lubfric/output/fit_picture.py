@@ -27,7 +27,12 @@ def drawn_record(fitted: studies.FitResult) -> dict[str, Any]:
     measured = fitted.measured
     (low, high) = fitted.band
     points = {"x": measured.x, "measured": measured.coefficient, "fitted": fitted.predicted, "low": low, "high": high}
-    more = {"deviation": measured.deviation, "branch": measured.branch, "describes_data": fitted.describes_data}
+    more = {
+        "deviation": measured.deviation,
+        "legend": measured.legend,
+        "branch": measured.branch,
+        "describes_data": fitted.describes_data,
+    }
     return points | more | {"over": measured.over, "source": measured.source}
 
 
@@ -49,7 +54,15 @@ def plot_fit(path: Path, record: dict[str, Any], options: PictureOptions = Pictu
     (deviation, branch) = (
         None if record.get(name) is None else np.array(record[name]) for name in ("deviation", "branch")
     )
-    measured = studies.Measured(x, coefficient, deviation, over=record["over"], source=record["source"], branch=branch)
+    measured = studies.Measured(
+        x,
+        coefficient,
+        deviation,
+        over=record["over"],
+        source=record["source"],
+        legend=record.get("legend", ""),
+        branch=branch,
+    )
     figure = figures.new_figure(figsize=options.size(HEIGHTS))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": HEIGHTS})
     is_valid = record.get("describes_data", True) is not False  # records of version 1.0.0 have not said

@@ -89,11 +89,7 @@ def _draw_measured(axes: Axes, measured: Any, *, is_signed: bool = False) -> Non
     of both signs, not magnitudes."""
     if measured is None:
         return
-    if is_signed:
-        label = figures.plain_words(measured.source)
-        axes.errorbar(measured.x, measured.coefficient, fmt="D", ms=4, color="k", mfc="none", lw=1, label=label)
-    else:
-        measured.draw(axes)
+    measured.draw(axes, is_signed=is_signed)
     axes.set_ylim(bottom=min(axes.get_ylim()[0], 1.1 * measured.coefficient.min()))
 
 

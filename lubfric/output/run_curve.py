@@ -8,7 +8,7 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -61,7 +61,8 @@ NARROWEST = 0.05  # m: width of a picture
 LEAST_DPI = 50  # points of a picture per inch
 MOST_DPI = 1200  # points of a picture per inch
 WIDEST_PICTURE = 0.6  # m: width of a picture
-OF_MEASURED = ("measured", "speed", "ratio", "coefficient")  # options of a measured curve and of its columns
+# Options of a measured curve, of its columns and of its label.
+OF_MEASURED = ("measured", "speed", "ratio", "coefficient", "deviation", "measured_label")
 # By the table of a curve, of what a measured curve is over: the option that names its column, the keyword of
 # `lubfric.read_measured`, and its name.
 MEASURED_OVER = {"stribeck": ("speed", "speed", "speed"), "traction": ("ratio", "slide_roll_ratio", "slide-roll ratio")}
@@ -357,10 +358,45 @@ def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:
     heading = getattr(arguments, option)
     if heading is None or arguments.coefficient is None:
         raise InputError(f"--measured needs --{option} and --coefficient, the headings of its columns")
-    measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, **{keyword: heading})
+    measured = read_measured_of(arguments, **{keyword: heading})
     columns = f"the {axis} is its column {heading!r}, f its column {arguments.coefficient!r}"
+    if measured.deviation is not None:
+        columns += f", the standard deviation {deviation_in_words(arguments.deviation)}"
     say(f"measured: {counted(measured.x.size, 'points')} of {measured.source}; {columns}")
     return measured
+
+
+def read_measured_of(arguments: Namespace, **options: Any) -> studies.Measured:
+    """Return the measured curve that the ``arguments`` of a command name, with its standard deviations and its label. ``options``:
+    the heading of what it is over, and others of `lubfric.read_measured`. --deviation is a heading, or a number for all
+    points, in percent relative to f."""
+    given = arguments.deviation
+    number = None if given is None else number_and_unit(given)
+    deviation: str | float | None = given
+    is_relative = number is not None and number[1] == "%"
+    if is_relative:
+        deviation = None
+    elif number is not None:
+        deviation = number_of("--deviation", given, "-")
+    measured = studies.read_measured(
+        arguments.measured,
+        coefficient=arguments.coefficient,
+        deviation=deviation,
+        legend=arguments.measured_label,
+        **options,
+    )
+    if not is_relative:
+        return measured
+    part = validate.number("--deviation", number_of("--deviation", given, "-"), "-", above=0.0)
+    return replace(measured, deviation=part * measured.coefficient)
+
+
+def deviation_in_words(given: str) -> str:
+    """Return what --deviation is, as text."""
+    number = number_and_unit(given)
+    if number is None:
+        return f"its column {given!r}"
+    return f"{given} of each f" if number[1] == "%" else f"{given} of each point"
 
 
 def _check_measured(arguments: Namespace) -> None:
@@ -368,7 +404,8 @@ def _check_measured(arguments: Namespace) -> None:
     given = next((name for name in OF_MEASURED if getattr(arguments, name) is not None), "measured")
     if arguments.measured is None and given != "measured":
         solved = f", or --{given}s for what is solved" if f"{given}s" in arguments else ""
-        raise InputError(f"--{given} names a column of the measured curve; give --measured as well{solved}")
+        what = "labels the measured curve" if given == "measured_label" else "names a column of the measured curve"
+        raise InputError(f"--{given.replace('_', '-')} {what}; give --measured as well{solved}")
 
 
 def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:

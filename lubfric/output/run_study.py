@@ -41,6 +41,7 @@ from .commands import (
 from .fit_picture import drawn_record, plot_fit
 from .fit_report import fit_page
 from .progress import ProgressLine
+from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_pictures import STUDY_PICTURE, plot_study
 from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines
@@ -196,9 +197,8 @@ def run_fit(arguments: Namespace) -> None:
     bounds = _bounds(arguments.parameter)
     begun = CommandStart.now()
     due = paced()
-    columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
-    rolling = not arguments.without_rolling
-    measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
+    columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio}
+    measured = read_measured_of(arguments, rolling=not arguments.without_rolling, **columns)
     checksums = {str(arguments.measured): files.checksum_of_file(arguments.measured)} | map_checksums(scene)
     given = given_tables(arguments.scene)
     say(studies.explain_fit(scene, measured, bounds, starts=arguments.starts))
@@ -246,6 +246,7 @@ def _fit_command(arguments: Namespace) -> str:
         "ratio": arguments.ratio,
         "coefficient": arguments.coefficient,
         "deviation": arguments.deviation,
+        "measured-label": arguments.measured_label,
         "starts": arguments.starts,
     }
     words = [word for name, value in options.items() if value is not None for word in (f"--{name}", str(value))]

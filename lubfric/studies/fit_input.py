@@ -41,6 +41,7 @@ class Measured:
     x : entrainment speeds [m/s] or slide-roll ratios [-], (n,)
     coefficient : friction coefficients [-], (n,)
     deviation : standard deviation of each coefficient, (n,); None: the same share of each, not known
+    legend : what a picture calls the points; "": `source`
     over : "speed" (a Stribeck curve) or "slide_roll_ratio" (a traction curve, at the speed of the scene)
     branch : number of the ramp to which each point belongs, (n,), 0, 1, ...: rising and falling speeds measured one
         after the other. None: one ramp. Points of different ramps may be at one speed
@@ -54,6 +55,7 @@ class Measured:
     _: KW_ONLY
     over: str = SPEED
     source: str = "measured"
+    legend: str = ""
     rolling: bool = True
     branch: np.ndarray | None = None
 
@@ -129,16 +131,19 @@ class Measured:
         """The scale of misfits: the deviations, or the coefficients themselves, (n,)."""
         return self.coefficient if self.deviation is None else self.deviation
 
-    def draw(self, axes: "Axes") -> None:
-        """Draw the points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
+    def draw(self, axes: "Axes", *, is_signed: bool = False) -> None:
+        """Draw the points on ``axes``, with their 95 % intervals, over the magnitude of what they are over, or over that
+        itself (``is_signed``)."""
         error = None if self.deviation is None else 1.96 * self.deviation
         for place, number in enumerate(self.branches):
             there = slice(None) if self.branch is None else self.branch == number
             ramp = f", ramp {number + 1}" if len(self.branches) > 1 else ""
             style: dict[str, Any] = {"fmt": MARKS[place % len(MARKS)], "ms": 4, "color": "k", "mfc": "none", "lw": 1}
-            label = figures.plain_words(self.source) + ramp
+            bars = "" if error is None else " (bars: 95 %)"
+            label = figures.plain_words(self.legend or self.source) + ramp + bars
             of_ramp = None if error is None else error[there]
-            axes.errorbar(np.abs(self.x[there]), self.coefficient[there], of_ramp, label=label, **style)
+            x = self.x[there] if is_signed else np.abs(self.x[there])
+            axes.errorbar(x, self.coefficient[there], of_ramp, label=label, **style)
 
     def label(self, axes: "Axes") -> None:
         """Label the axis of what the points are over."""
@@ -158,8 +163,9 @@ def read_measured(
     coefficient: str,
     speed: str | None = None,
     slide_roll_ratio: str | None = None,
-    deviation: str | None = None,
+    deviation: str | float | None = None,
     rolling: bool = True,
+    legend: str | None = None,
 ) -> Measured:
     """Read a measured curve from a text file with a heading; commas, semicolons or tabs separate its columns.
 
@@ -170,7 +176,8 @@ def read_measured(
     path : file
     coefficient : heading of the friction coefficients, as in the file
     speed, slide_roll_ratio : heading of the speeds, or of the slide-roll ratios (one of the two)
-    deviation : heading of the standard deviations; None: not known
+    deviation : heading of the standard deviations, or one for all points [-]; None: not known
+    legend : what a picture calls the points; None: the name of the file without its ending
     rolling : False where the rolling part is taken out of the coefficients (`Measured`)
 
     Returns
@@ -192,7 +199,7 @@ def read_measured(
         raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")
     over, heading = (SLIDE_ROLL_RATIO_COLUMN, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
     units = ("m/s" if over == SPEED else "-", "-", "-")
-    names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
+    names = (heading, coefficient, deviation) if isinstance(deviation, str) else (heading, coefficient)
     for name in names:
         validate.instance("heading", name, str, "words, as in the file")
     file = validate.folder("path", path)
@@ -200,6 +207,8 @@ def read_measured(
     branch = ramps(columns[0])
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
+    if deviation is not None and not isinstance(deviation, str):
+        spread = [np.full(x.size, validate.number("deviation", deviation, "-", above=0.0))]
     try:
         return Measured(
             x,
@@ -207,6 +216,7 @@ def read_measured(
             deviation=spread[0] if spread else None,
             over=over,
             source=file.name,
+            legend=file.stem if legend is None else legend,
             rolling=rolling,
             branch=None if branch is None else branch[order],
         )
