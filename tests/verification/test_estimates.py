@@ -95,6 +95,15 @@ def test_moving_roughness_on_few_cells_is_estimated_within_three_of_what_it_took
     assert taken / 3 <= estimate <= 3 * taken
 
 
+@pytest.mark.parametrize("length", [4e-6, 8e-6])
+def test_a_light_contact_on_an_exponential_surface_is_estimated_without_shorter_cells(length):
+    """Between bodies that flatten by a twentieth of Sq no shorter cells follow: Python adds to the counted work of .1 s."""
+    scene = PAPER.with_(surface={"acf": "exponential", "correlation_length": length}, numerics={"accept": True})
+    with limited_work(math.inf) as meter:
+        lubfric.friction(scene, 0.005)
+    assert meter.spent <= of_scene(scene, [0.005]) <= 4 * meter.spent
+
+
 def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact():
     """Under a light load, and between bodies of 10 MPa, whose contact took 30 s."""
     for bodies, speed in (({"load": 1.0}, 1.0), ({"e_prime": 1e7}, 0.03)):

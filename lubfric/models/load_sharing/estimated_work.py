@@ -28,9 +28,9 @@ CELL_SECONDS = 1.0e-7
 # film fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
 TIMES_BY_FLATTENING = 0.17
 
-# The same where the heights are not smooth over a cell, over that flattening alone [-]: iterations of a contact over the usual
-# five are 1.1, 1.5, 2.6, 2, 2 to 3.6, 9 at .4, 2.4, 3.3, 7, 13, 17 Sq. Measured on seven exponential surfaces.
-TIMES_BY_FLATTENING_IF_ROUGH = 0.3
+# The same where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77 points on exponential surfaces:
+# 74 % within a factor of 3, and nearly all if it were known how often their cells are halved.
+TIMES_BY_FLATTENING_IF_ROUGH = 0.39
 
 # Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
 PIECE_SECONDS = 1.5e-7
@@ -71,18 +71,25 @@ FILM_SECONDS = 0.015
 # Factor on that with heat.
 HOT = 5.0
 
-# Factor on the time where the heights are not smooth over a cell and the film carries a part of the load (`SHARED`),
-# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than
-# `FEW_CELLS_OF_LENGTH`.
-ROUGH_TIMES = 1.5
-ROUGH_TIMES_ON_LONG_CELLS = 6.0
+# Cells in a correlation length along x, at most, until which cells are halved in the mean where the heights are not smooth over a cell
+# and the film carries a part of the load (`SHARED_IF_ROUGH`). Fitted to the halvings of 53 of these points, by their likelihood.
+ROUGH_CELLS_OF_LENGTH = 18.0
+
+# Flattening of the bodies in Sq at which there are as many; and the fall of their binary logarithm with the square of how far its
+# natural logarithm is from that [-]: neither light nor wide contacts need so many. Fitted.
+ROUGH_FLATTENING = 2.4
+ROUGH_BY_FLATTENING = 0.16
+
+# Standard deviation of the number of halvings, and the largest [-]. Fitted, and seen.
+HALVINGS_SPREAD = 0.98
+MOST_HALVINGS = 3
+
+# Part of the gap that the film of the whole load fills, between which that happens: at half of these points there, and at none of the others.
+SHARED_IF_ROUGH = (0.1, 0.93)
 
 # Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones
 # may follow. Four random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
 REFINED = 1.3
-
-# Cells in a correlation length along x below which cells are long. A choice: it moves estimates alone.
-FEW_CELLS_OF_LENGTH = 12.0
 
 # Part of the gap that the film of the whole load fills, between which that happens. A choice: it moves estimates alone.
 SHARED = (0.08, 0.6)
@@ -197,8 +204,11 @@ def _work_of_strips(
     one_film = BALANCED_FILM * _times_by_heat(scene)
     touched = 1 - min(film / expected_gap(film, sq), 1.0)
     is_smooth = is_smooth_over_cells(surface.heights)
-    by_flattening = TIMES_BY_FLATTENING * touched if is_smooth else TIMES_BY_FLATTENING_IF_ROUGH
-    times = 1 + by_flattening * flattening(scene, sq)
+    by_flattening = TIMES_BY_FLATTENING if is_smooth else TIMES_BY_FLATTENING_IF_ROUGH
+    times = 1 + by_flattening * touched * flattening(scene, sq)
+    on_shorter = _times_by_shorter_cells(
+        sample, film / expected_gap(film, sq), flattened=flattening(scene, sq), is_smooth=is_smooth
+    )
     strip = times * CELL_SECONDS * cells.columns * sample.strip_length / dy
     solved = sample.first_strips
     work = SOLVES * (one_film + strip * solved)
@@ -207,12 +217,12 @@ def _work_of_strips(
         most = later_growth if solved > sample.first_strips else first_growth
         solved = min(count, math.ceil(most * solved))
         work += SOLVES_ON_MORE * (one_film + strip * solved)
-    work *= _times_by_shorter_cells(sample, surface, film)
+    work *= on_shorter
     pieces_seconds = 0.0
     native_seconds = 0.0
     if not cells.is_native:
         native = cells.columns * fx * cells.rows(PIECE_LENGTH * ly) * fy
-        pieces_seconds = times * PIECE_SECONDS * cells_of_pieces(cells, native)
+        pieces_seconds = on_shorter * times * PIECE_SECONDS * cells_of_pieces(cells, native)
         native_seconds = PIECE_SECONDS * native
         made = GENERATED_SECONDS * native
         shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, is_of_surface_alone=True),)
@@ -220,22 +230,29 @@ def _work_of_strips(
         work += native_seconds
     reference = nearest_reference(film / sq)
     if reference is not None and scene.lubricant.inlet_film is None:
-        there = SOLVES_OF_REFERENCE * (one_film + strip * sample.first_strips) + pieces_seconds
+        there = on_shorter * SOLVES_OF_REFERENCE * (one_film + strip * sample.first_strips) + pieces_seconds
         name = f"reference point at {reference} Sq on {cells.coarsening}"
         shared = (*shared, SharedWork(what=name, seconds=there, is_of_surface_alone=False))
         pieces_seconds *= OWN_PIECES
     return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), shared
 
 
-def _times_by_shorter_cells(sample: Sample, surface: Surface, film: float) -> float:
-    """Return the factor on the time of the strips because shorter cells may follow, under an expected ``film`` [m]."""
-    share = film / expected_gap(film, surface.sq)
-    if not SHARED[0] < share < SHARED[1]:
+def _times_by_shorter_cells(sample: Sample, share: float, *, flattened: float, is_smooth: bool) -> float:
+    """Return the factor on the time of the strips because shorter cells may follow, where the expected film fills this ``share`` of the
+    gap between bodies ``flattened`` by so many Sq; ``is_smooth``: whether the heights are smooth over a cell."""
+    cells = sample.cells
+    (least, most) = SHARED if is_smooth else SHARED_IF_ROUGH
+    if cells.is_native or not least < share < most:
         return 1.0
-    if not is_smooth_over_cells(surface.heights):
-        is_long = sample.correlation_lengths[0] < FEW_CELLS_OF_LENGTH * sample.cells.spacing[0]
-        return ROUGH_TIMES_ON_LONG_CELLS if is_long else ROUGH_TIMES
-    return 1.0 if sample.cells.is_native else REFINED
+    if is_smooth:
+        return REFINED
+    mean = math.log2(ROUGH_CELLS_OF_LENGTH * cells.spacing[0] / sample.correlation_lengths[0])
+    mean -= ROUGH_BY_FLATTENING * math.log(flattened / ROUGH_FLATTENING) ** 2
+    log_times = 0.0  # the mean over the number of halvings, each of which is solved on four times as many cells
+    for halvings in range(1, min(MOST_HALVINGS, round(math.log2(max(cells.coarsening)))) + 1):
+        part = 0.5 * math.erfc((halvings - mean) / (math.sqrt(2.0) * HALVINGS_SPREAD))
+        log_times += part * math.log((4.0 ** (halvings + 1) - 1) / (4.0**halvings - 1))
+    return math.exp(log_times)
 
 
 def flattening(scene: Scene, sq: float) -> float:
