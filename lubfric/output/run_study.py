@@ -44,7 +44,7 @@ from .progress import ProgressLine
 from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_pictures import STUDY_PICTURE, plot_study
-from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines
+from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines, warning_lines
 
 if TYPE_CHECKING:
     pass
@@ -83,14 +83,14 @@ def run_study(arguments: Namespace) -> None:
             folder.add(name, made, name, writers[name.partition(".")[2]])
         if np.isfinite(result["coefficient"]).any():
             folder.draw(STUDY_PICTURE, plot_study, result)
-        if result.with_warnings:
-            where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
-            say(f"warnings at {where}: report.html has them in full, study.csv in the column validity")
+        for line in warning_lines(result):
+            say(line)
         rows: list[str] = []
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
         folder.add("report.html", study_page, result, folder.contents, rows)
-        folder.add(BIBTEX_FILE, lambda: references(result))
+        if np.isfinite(result["coefficient"]).any():
+            folder.add(BIBTEX_FILE, lambda: references(result))
         folder.add(RESOLVED_SCENE, lambda: plan.scene.to_toml(arguments.out).encode())
         folder.add(RESOLVED_STUDY, lambda: plan.to_toml(RESOLVED_SCENE).encode())
         folder.put()
@@ -140,6 +140,7 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
     # when the last points came together, as a process hands over several, and how many were done then
     batch = (begun, 0)
     last = begun
+    first_with_reason: dict[str, str] = {}
 
     def on_point(done: int, total: int, index: tuple[int, ...], outcome: Any) -> None:
         nonlocal first, batch, last
@@ -152,11 +153,17 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
             return
         head = f"[{done:>{len(str(total))}}/{total}{' curves' if plan.chooses_speeds else ''}]"
         passed = time.perf_counter() - begun
-        of_point = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
-        ends = f"wall-clock time {of_point}of the study so far {passed:.0f} s"
+        seconds = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
+        ends = f"wall-clock time {seconds}of the study so far {passed:.0f} s"
         if 0 < batch[1] and done < total:
             ends += f", about {studies.in_words((batch[0] - begun) * (total - done) / batch[1])} left"
-        say(f"{head} {_place(plan, index, outcome)}: {_in_a_line(outcome)} ({ends})")
+        place = _place(plan, index, outcome)
+        text = _in_a_line(outcome)
+        if not isinstance(outcome, FrictionResult):
+            of_point = place.partition(":")[0]
+            earlier = first_with_reason.setdefault(text, of_point)
+            text = text if of_point == earlier else f"{text.partition(':')[0]} for the reason of {earlier}"
+        say(f"{head} {place}: {text} ({ends})")
 
     return on_point
 

@@ -16,9 +16,10 @@ from ..models.shared import (
     MODEL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,
+    GatheredTexts,
     UnmodelledEffect,
     alpha_in_words,
-    gathered_texts,
+    gathered_in_table,
     half_width_of_error,
     is_near_zero,
     is_note_text,
@@ -125,11 +126,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
     import scipy
 
-    gathered = _gathered(result)
-    warnings = [sentence(note) for note in result.plan.notes]
-    warnings += [text for text in gathered if not is_note_text(text)]
-    warnings += model_error_above_target(result)
-    notes = [_without_kind(text) for text in gathered if is_note_text(text)]
+    warnings = numbered_warnings(result)
+    notes = [_without_kind(each.text) for each in _gathered(result) if is_note_text(each.text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = (
@@ -137,6 +135,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         if rows == size
         else f"Some {rows} of {size} points, evenly, and those of the answer. No. is the row of study.csv, which has all of them."
     )
+    about += " Its last column has the numbers of the warnings above." if any(each.numbers for each in warnings) else ""
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
@@ -151,11 +150,15 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-        warnings=(_list(warnings) if warnings else "<p>No checked limit of the model is exceeded.</p>")
+        warnings=(
+            _list([each.text for each in warnings], kind="ol")
+            if warnings
+            else "<p>No checked limit of the model is exceeded.</p>"
+        )
         + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
         best=best_table(result),
         about=about,
-        table=_table(result, rows) + _details(result, rows) + _effects_table(result),
+        table=_table(result, rows, warnings) + _details(result, rows) + _effects_table(result),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
         inputs=common_inputs(result),
         sources=_list(result.cite().splitlines()),
@@ -163,9 +166,36 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     return page.encode()
 
 
-def _gathered(result: StudyResult) -> list[str]:
-    """Return one sentence for each assumption that does not hold somewhere, which names the points."""
-    return gathered_texts([str(cell) for cell in columns_of_study(result)["validity"]])
+def _gathered(result: StudyResult) -> list[GatheredTexts]:
+    """Return one sentence for each assumption that does not hold somewhere, with the points."""
+    return gathered_in_table([str(cell) for cell in columns_of_study(result)["validity"]])
+
+
+def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
+    """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which are of no
+    point, then the assumptions that do not hold somewhere, and where the model-form error of f is above its target."""
+    warnings = [GatheredTexts(text=sentence(note), numbers=()) for note in result.plan.notes]
+    warnings += [each for each in _gathered(result) if not is_note_text(each.text)]
+    more = " ".join(model_error_above_target(result))
+    if not more:
+        return warnings
+    numbers = tuple(_numbers_of_points(result)[_is_above_target(result)].tolist())
+    for place, each in enumerate(warnings):
+        if f": {MODEL_ERROR} is" in each.text:
+            text = f"{each.text} {more.replace(f'of {result.solved} points', 'further points', 1)}"
+            warnings[place] = GatheredTexts(text=text, numbers=tuple(sorted((*each.numbers, *numbers))))
+            return warnings
+    return [*warnings, GatheredTexts(text=more, numbers=numbers)]
+
+
+def warning_lines(result: StudyResult) -> list[str]:
+    """Return how many points have warnings, and each reason with its points and the worst value, in a line each."""
+    if not result.with_warnings:
+        return []
+    where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
+    heads = [each.text.partition(". ")[0] for each in _gathered(result) if not is_note_text(each.text)]
+    full = "report.html has them in full with what to do, study.csv in the column validity"
+    return [f"warnings at {where} ({full}):", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 
 
 def _without_kind(text: str) -> str:
@@ -176,9 +206,9 @@ def _without_kind(text: str) -> str:
 def tolerance_lines(result: StudyResult) -> list[str]:
     """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
     of_tolerances = (NUMERICAL_ERROR, SAMPLING_ERROR)
-    texts = [text for text in _gathered(result) if is_note_text(text)]
+    texts = [each.text for each in _gathered(result) if is_note_text(each.text)]
     lines = [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
-    return [f"{line}{ALL_IN_TABLE if ', ...)' in line else ''}" for line in lines]
+    return [f"{line}{'' if line.startswith('At point') else ALL_IN_TABLE}" for line in lines]
 
 
 def why_no_intervals(result: StudyResult) -> str:
@@ -227,12 +257,10 @@ def model_error_above_target(result: StudyResult) -> list[str]:
     itself."""
     target = result.plan.scene.numerics.model_tolerance
     advice = "numerics.model = 'auto' takes the cheapest model within it"
-    error = np.where(
-        [MODEL_ERROR in str(cell) for cell in result.validity.flat], np.nan, result["uncertainty_model"].flat
-    )
+    error = np.where(_is_above_target(result), result["uncertainty_model"].flat, np.nan)
     size = np.abs(result["coefficient"]).ravel()
     near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
-    above = error[(error > target) & ~near_zero]
+    above = error[np.isfinite(error) & ~near_zero]
     texts = []
     if above.size:
         ends = " to ".join(dict.fromkeys(percent(float(end)) for end in (above.min(), above.max())))
@@ -250,6 +278,16 @@ def model_error_above_target(result: StudyResult) -> list[str]:
             f"f says nothing there{'' if texts else f', and {advice}'}."
         )
     return texts
+
+
+def _is_above_target(result: StudyResult) -> np.ndarray:
+    """Return at which points, flat, the model-form error of f is above its target, and no warning says so; or f is near 0."""
+    error = np.asarray(result["uncertainty_model"]).ravel()
+    size = np.abs(result["coefficient"]).ravel()
+    near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
+    warned = np.array([MODEL_ERROR in str(cell) for cell in result.validity.flat])
+    above: np.ndarray = ((error > result.plan.scene.numerics.model_tolerance) | near_zero) & ~warned
+    return above
 
 
 def _numbers_of_points(result: StudyResult) -> np.ndarray:
@@ -340,8 +378,9 @@ def _range(key: str, values: np.ndarray) -> str:
     return f"{label}: {', '.join(shown)}{', ...' if values.size > 6 else ''}"
 
 
-def _table(result: StudyResult, rows: int) -> str:
-    """Return the points of a study with what is varied, and the numbers `REPORTED_NUMBERS`, each column in one unit."""
+def _table(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) -> str:
+    """Return the points of a study with what is varied, the numbers `REPORTED_NUMBERS`, each column in one unit, and the numbers
+    of their ``warnings`` in the report."""
     columns = columns_of_study(result)
     columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
     count = len(next(iter(columns.values())))
@@ -354,7 +393,10 @@ def _table(result: StudyResult, rows: int) -> str:
         heads.append(head)
         cells.append(column)
     inputs_alone = len(heads) - len(REPORTED_NUMBERS)
-    why = f'<td colspan="{len(REPORTED_NUMBERS)}" class="warning">'
+    if any(each.numbers for each in warnings):
+        heads.append("warnings")
+        cells.append([_numbers_of_warnings(warnings, row + 1) for row in picked])
+    why = f'<td colspan="{len(heads) - inputs_alone}" class="warning">'
     failures = set(result.failures)
     body = []
     for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
@@ -362,6 +404,11 @@ def _table(result: StudyResult, rows: int) -> str:
         texts = "".join(f'<td class="number">{escape(text)}</td>' for text in numbers)
         body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
     return table(heads, body)
+
+
+def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
+    """Return the numbers of the ``warnings`` that hold at a ``point``, as text."""
+    return ", ".join(str(number) for number, each in enumerate(warnings, 1) if point in each.numbers) or "-"
 
 
 def _column(
@@ -539,8 +586,8 @@ def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int
     return plain_number(shown, digits=digits)
 
 
-def _list(lines: list[str]) -> str:
-    return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>"
+def _list(lines: list[str], kind: str = "ul") -> str:
+    return f"<{kind}>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</{kind}>"
 
 
 def answer_lines(result: StudyResult) -> list[str]:

@@ -35,6 +35,7 @@ def solved(
     folder: str | Path | None = None,
     *,
     fine_fields: bool = False,
+    warns: bool = True,
 ) -> Iterator[tuple[str, float, Outcome | None]]:
     """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
     outcome. If the scene cannot be made ready, that is the error of all.
@@ -46,8 +47,10 @@ def solved(
     kept : speeds at which film and contact are kept, which chosen ones include
     folder : of the store, or None
     fine_fields : whether these are on cells fine enough to look at
+    warns : whether records that do not count are reported; a study has reported them when it read its store
     """
     store = Store(folder if is_shared(folder) else None)
+    store.gathers_faults = not warns
     done: tuple[float, ...] = ()
     model: Prepared | LubfricError
     try:
@@ -86,7 +89,7 @@ def solved_together(
 ) -> Iterator[Any]:
     """Yield what `solved` yields of each of the ``tasks`` (scene, key, speeds)."""
     for scene, key, speeds in tasks:
-        yield from solved(scene, key, speeds, folder=folder)
+        yield from solved(scene, key, speeds, folder=folder, warns=False)
 
 
 def outcome_of(prepared: Prepared, speed: float, *, fields: bool | str = False) -> Outcome:

@@ -196,8 +196,11 @@ class StudyResult(Renamed, Shown):
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this study, the model's first: one a line, or with ``format``
-        "bibtex" as BibTeX entries."""
-        prepared = prepare(next(iter(scenes_of(self.plan.scene, self.plan.axes))))
+        "bibtex" as BibTeX entries. Nothing is cited where no point is solved."""
+        if not np.isfinite(self["coefficient"]).any():
+            return ""
+        solved = np.isfinite(self["coefficient"]).reshape(len(self.plan.keys), -1).any(axis=1)
+        prepared = prepare(self.plan.scenes[int(np.argmax(solved))])
         models = models_that_may_answer(prepared.scene.numerics.model)
         names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
         return cited(names, format)

@@ -75,6 +75,23 @@ class Store(RecordStore):
         self.root = root
         self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
+        self.faults: list[str] = []
+        self.gathers_faults = False
+
+    @contextmanager
+    def one_warning(self) -> Iterator[None]:
+        """Report all records inside that do not count in one `UserWarning`, of the first of them, with their number."""
+        self.gathers_faults = True
+        try:
+            yield
+        finally:
+            self.gathers_faults = False
+            others = len(self.faults) - 1
+            if self.faults:
+                more = f", as {others} other{'s' if others > 1 else ''} in that folder," if others else ""
+                solve = "they are" if others else "it is"
+                warnings.warn(f"{self.faults[0]}{more} and does not count: {solve} to be solved again", stacklevel=3)
+            self.faults.clear()
 
     def add(self, key: str, outcome: Any, *, sync: bool = False) -> None:
         """Keep a dataclass of the ``classes``, a `LubfricError`, or a tuple of these and of numbers; ``sync``: it also
@@ -96,7 +113,9 @@ class Store(RecordStore):
             fault = "was written by another version of lubfric"
             record = decode((content or b"")[len(_name(key)) :], self.classes, kind)
         except (ValueError, OutputError):
-            warnings.warn(f"{self._path(key)} {fault} and does not count: it is to be solved again", stacklevel=2)
+            self.faults.append(f"{self._path(key)} {fault}")
+            if not self.gathers_faults:
+                warnings.warn(f"{self.faults.pop()} and does not count: it is to be solved again", stacklevel=2)
             return None
         return _error(record) if isinstance(record, Failure) else record
 

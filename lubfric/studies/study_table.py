@@ -76,8 +76,11 @@ class StudyTable:
 
     def read(self, store: Store) -> None:
         """Put in all points that ``store`` has."""
-        if store.empty:
-            return
+        if not store.empty:
+            with store.one_warning():
+                self._read(store)
+
+    def _read(self, store: Store) -> None:
         for key, speeds in self.plan.requested.items():
             if speeds:
                 for speed in speeds:

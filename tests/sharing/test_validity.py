@@ -218,7 +218,9 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     (text,) = gathered([(0.1, (slower,)), (3.0, (faster,))])
     assert "above 5 %. At 0.1 m/s: it takes 8.69 s." in text  # of the one point that has these numbers
     (text,) = gathered_texts([in_a_cell([faster]), in_a_cell([slower])])
-    assert text.startswith("At points 1 and 2: slip is 5.2 to 8.69 %, above 5 %. At point 2: it takes 8.69 s.")
+    assert text.startswith(
+        "At points 1 and 2: slip is 5.2 to 8.69 % (at point 2), above 5 %. At point 2: it takes 8.69 s."
+    )
     points = [(0.1, (entry(8.0),)), (0.3, (replace(entry(7.0), recommendation="more"),))]
     (text,) = gathered(points)
     assert text.endswith("above 5 %. It slides. Recommendation at 0.1 m/s: less.")  # the consequence holds at both
@@ -239,16 +241,19 @@ def test_a_warning_of_a_table_quotes_the_value_farthest_beyond_its_limit(values,
     entries = [replace(entry(value), limit=limit, consequence=f"it takes {value} s") for value in values]
     (text,) = gathered_texts([in_a_cell([each]) for each in entries])
     assert f"At point {worst}: it takes {values[worst - 1]} s" in text
-    assert f"slip is {min(values)} to {max(values)} %" in text
+    is_below = limit > max(values) or ", below " in text
+    place = f" (at point {worst})"
+    ends = f"{min(values)}{place} to {max(values)} %" if is_below else f"{min(values)} to {max(values)} %{place}"
+    assert f"slip is {ends}, " in text
 
 
 @pytest.mark.parametrize(
     "places, words",
     [
         ((1,), "At point 1: slip is 6 %"),
-        ((1, 2, 3, 4, 5), "At points 1 to 5: slip is 6 to 10 %"),
-        ((1, 3), "At points 1 and 3: slip is 6 to 8 %"),
-        ((1, 2, 3, 5), "At points 1 to 3 and 5: slip is 6 to 10 %"),
+        ((1, 2, 3, 4, 5), "At points 1 to 5: slip is 6 to 10 % (at point 5)"),
+        ((1, 3), "At points 1 and 3: slip is 6 to 8 % (at point 3)"),
+        ((1, 2, 3, 5), "At points 1 to 3 and 5: slip is 6 to 10 % (at point 5)"),
     ],
 )
 def test_warnings_of_a_table_name_their_points(places, words):
@@ -257,10 +262,10 @@ def test_warnings_of_a_table_name_their_points(places, words):
     assert text.startswith(f"{words}, above 5 %. It slides.")
 
 
-def test_warnings_at_many_scattered_points_name_the_first_and_how_many_there_are():
-    cells = [in_a_cell([entry(6.0)] if n % 2 else []) for n in range(41)]
+def test_warnings_at_many_scattered_points_name_the_worst_and_how_many_there_are():
+    cells = [in_a_cell([entry(6.0 + (n == 7))] if n % 2 else []) for n in range(41)]
     (text,) = gathered_texts(cells)
-    assert text.startswith("At 20 of 41 points (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, ...): slip is 6 %")
+    assert text.startswith("At 20 of 41 points: slip is 6 to 7 % (at point 8), above 5 %.")
 
 
 def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():

@@ -4,6 +4,7 @@ import csv
 import os
 import signal
 import time
+import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -391,3 +392,17 @@ def test_the_plan_of_a_study_names_the_model_that_answers(model, words):
     assert words in lubfric.plan_study(scene, {"bodies.load": [3.0, 5.5]}, [0.01]).explain()
     result = lubfric.friction(scene, 0.01)
     assert result.decision.model == model
+
+
+def test_records_that_do_not_count_are_one_warning(tmp_path):
+    """And they are solved again."""
+    lubfric.study(SCENE, {"bodies.load": [3.0, 4.0, 5.0]}, [0.3], store=tmp_path)
+    damaged = [path for path in (tmp_path / "points").iterdir() if path.stat().st_size > 3000]
+    for path in damaged:
+        path.write_bytes(path.read_bytes()[:-9])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        again = lubfric.study(SCENE, {"bodies.load": [3.0, 4.0, 5.0]}, [0.3], store=tmp_path)
+    assert len(damaged) == 3 and again.failed == again.missing == 0
+    (text,) = (str(each.message) for each in caught)
+    assert "is damaged, as 2 others in that folder, and does not count: they are to be solved again" in text

@@ -314,7 +314,7 @@ def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
     many = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
     every_second = np.array(["", cell] * 20).reshape(many.validity.shape)
     (line,) = study_report.tolerance_lines(replace(many, validity=every_second))
-    assert "At 20 of 40 points (2, 4, 6," in line and line.endswith("column validity of study.csv has all of them.")
+    assert "At 20 of 40 points: " in line and line.endswith("column validity of study.csv has all of them.")
 
 
 def test_the_table_of_a_report_has_the_films():
@@ -328,3 +328,43 @@ def test_the_table_of_a_report_has_the_films():
     places = [heads.index(name) for name in ("central separation [nm]", "smallest film thickness [nm]", "lambda ratio")]
     cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows[:2]]
     assert [[row[place] for place in places] for row in cells] == [["200", "110", "0.7"], ["300", "120", "0.8"]]
+
+
+def test_points_that_share_a_reason_are_one_line_with_the_worst():
+    """On the console, and numbered in the report, where each row of the table has the numbers of its warnings."""
+    result = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
+    pressures = [1.2 + 0.01 * n for n in range(40)]
+    cells = [f"warning: film pressure is {p:.3g} GPa, above 1 GPa. Why. Recommendation: less." for p in pressures]
+    cells = [f"{cell} | warning: slip is 3, below 5. Why." if n in (4, 7) else cell for n, cell in enumerate(cells)]
+    result = replace(result, validity=np.array(cells).reshape(result.validity.shape))
+    head, *lines = study_report.warning_lines(result)
+    assert head.startswith("warnings at 40 of 40 points")
+    assert [line.strip() for line in lines] == [
+        "at points 1 to 40: film pressure is 1.2 to 1.59 GPa (at point 40), above 1 GPa",
+        "at points 5 and 8: slip is 3, below 5",
+    ]
+    page = study_report.study_page(result, {}, []).decode()
+    (listed,) = re.findall(r"<h2>Warnings</h2>\s*<ol>(.*?)</ol>", page)
+    assert listed.count("<li>") == 2
+    body = page.split("<h2>Operating points</h2>")[1].split("</table>")[0]
+    rows = [re.findall(r">([^<]*)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", body)[1:]]
+    assert [row[-1] for row in rows] == ["1, 2" if n in (4, 7) else "1" for n in range(40)]
+
+
+def test_a_reason_that_many_points_fail_for_is_said_once(capsys):
+    plan = lubfric.plan_study(SMALL, {"bodies.load": np.linspace(1.0, 2.0, 12).tolist()}, [0.3])
+    report = run_study._point_reports(plan, time.perf_counter())
+    for n in range(12):
+        report(n + 1, 12, (n, 0), lubfric.InputError("no spacing" if n != 5 else "no load"))
+    said = " ".join(capsys.readouterr().err.split())
+    assert said.count("no spacing") == said.count("no load") == 1
+    assert said.count("failed for the reason of point 1 (") == 10
+
+
+def test_a_study_without_a_solved_point_has_a_report(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text(SMALL.with_(contact={"shape": None, "spacing": None}).to_toml())
+    (tmp_path / "study.toml").write_text('scene = "s.toml"\nspeeds = [0.1]\n[vary]\nbodies.load = [3.0, 5.5]\n')
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]) == 1
+    said = capsys.readouterr().err
+    assert "was not written" not in said and "2 of 2 points failed" in said
+    assert "Not complete: 0 of 2 points solved" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")

@@ -114,10 +114,12 @@ from .unmodelled import (
 )
 from .violation import (
     Assumption,
+    GatheredTexts,
     Violation,
     at_value,
     at_values,
     gathered,
+    gathered_in_table,
     gathered_texts,
     in_a_cell,
     is_note_text,

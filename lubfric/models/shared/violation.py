@@ -230,10 +230,29 @@ def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
     return f"{ends[0]} ({places[0]}) to {ends[1]} ({places[1]})"
 
 
+@dataclass(frozen=True, kw_only=True)
+class GatheredTexts:
+    """What is violated at some points of a table.
+
+    Attributes
+    ----------
+    text : a sentence, or a few, of all these points
+    numbers : of these points, from 1
+    """
+
+    text: str
+    numbers: tuple[int, ...]
+
+
 def gathered_texts(cells: Sequence[str]) -> list[str]:
+    """Return the texts of `gathered_in_table`."""
+    return [each.text for each in gathered_in_table(cells)]
+
+
+def gathered_in_table(cells: Sequence[str]) -> list[GatheredTexts]:
     """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
-    of each point (`in_a_cell`): consequence and recommendation are those of the value farthest beyond its limit, with the
-    points where they are the same, if not all. Points are named by their number, from 1."""
+    of each point (`in_a_cell`), with the point whose value is farthest beyond its limit; consequence and recommendation are those
+    of this value, with the points where they are the same, if not all. Points are named by their number, from 1."""
     groups: dict[tuple[str, bool], dict[int, str]] = {}
     for number, cell in enumerate(cells, 1):
         for text in cell.split(TEXT_SEPARATOR) if cell else ():
@@ -241,13 +260,12 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
             groups.setdefault((what, ", below " in numbers.partition(". ")[0]), {})[number] = text
     lines = []
     for (_, is_below), group in sorted(groups.items(), key=lambda item: len(item[1]), reverse=True):
-        matches = [(match, text) for text in group.values() if (match := _VALUE_IN_TEXT.search(text))]
-        values = sorted((float(match[1]), match[1], text) for match, text in matches)
+        matches = [(match, number) for number, text in group.items() if (match := _VALUE_IN_TEXT.search(text))]
+        values = sorted((float(match[1]), match[1], number) for match, number in matches)
         text = next(iter(group.values()))
         if len(values) == len(group):
-            least = values[0][1]
-            most = values[-1][1]
-            (_, worst, text) = values[0 if is_below else -1]
+            (_, worst, at_worst) = values[0 if is_below else -1]
+            text = group[at_worst]
         (head, consequence, recommendation) = _parts_of_text(text)
         parts = {number: _parts_of_text(each) for number, each in group.items()}
         alike = sorted(number for number, part in parts.items() if part[1] == consequence)
@@ -258,12 +276,19 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
         if recommendation and len(advised) < len(group):
             place = numbers_in_words(advised, len(cells)).lower()
             recommendation = f"{RECOMMENDATION} {place}{recommendation.removeprefix(RECOMMENDATION)}"
-        text = f"{head}. {consequence}{recommendation}"
-        if len(values) == len(group):
-            if least != most:
-                text = text.replace(f" is {worst}", f" is {least} to {most}", 1)
-        lines.append(f"{numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
+        if len(values) == len(group) and values[0][1] != values[-1][1]:
+            head = _with_range(head, values[0][1], values[-1][1], f" (at point {at_worst})", is_below=is_below)
+        place = numbers_in_words(sorted(group), len(cells))
+        text = f"{place}: {head.removeprefix('warning: ')}. {consequence}{recommendation}"
+        lines.append(GatheredTexts(text=text, numbers=tuple(sorted(group))))
     return lines
+
+
+def _with_range(head: str, least: str, most: str, place: str, *, is_below: bool) -> str:
+    """Return the first sentence of a violation with the range of its values, and the ``place`` of the worst one."""
+    if is_below:
+        return head.replace(f" is {least}", f" is {least}{place} to {most}", 1)
+    return head.replace(f" is {most}", f" is {least} to {most}", 1).replace(", above ", f"{place}, above ", 1)
 
 
 def _parts_of_text(text: str) -> tuple[str, str, str]:
@@ -275,7 +300,8 @@ def _parts_of_text(text: str) -> tuple[str, str, str]:
 
 
 def numbers_in_words(numbers: list[int], count: int) -> str:
-    """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"."""
+    """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"; of many scattered ones how many
+    they are: "At 20 of 41 points"."""
     if count == 1:
         return "At the point"
     if len(numbers) == 1:
@@ -288,8 +314,7 @@ def numbers_in_words(numbers: list[int], count: int) -> str:
             runs.append([number])
     shown = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
     if len(shown) > MOST_PLACES:
-        first = ", ".join(map(str, numbers[:MOST_PLACES]))
-        return f"At {len(numbers)} of {count} points ({first}, ...)"
+        return f"At {len(numbers)} of {count} points"
     *before, last = ", ".join(shown).rsplit(", ", 1)
     return f"At points {' and '.join((*before, last))}"
 
