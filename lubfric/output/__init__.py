@@ -6,6 +6,7 @@ from .contact_pictures import DrawnContact, drawn_contact, plot_contact
 from .describe import describe_scene, described_scene, estimate_scene
 from .fields import fields_bytes, grid_bytes, write_moments
 from .fit_report import fit_status
+from .page import FRAME, framed
 from .picture_options import PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction
 from .progress import ProgressLine

@@ -4,8 +4,6 @@ import math
 import time
 from collections.abc import Mapping
 from html import escape
-from importlib.resources import files
-from string import Template
 from typing import Any
 
 import numpy as np
@@ -17,6 +15,7 @@ from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval
 from .inputs import INPUT_SECTIONS
+from .page import framed
 from .report import (
     bullets,
     effects_table,
@@ -25,7 +24,6 @@ from .report import (
     picture,
     scene_in_words,
     status_kind,
-    style_sheet,
     table,
     warnings_and_notes,
 )
@@ -62,38 +60,38 @@ def fit_page(
         else f"{OF_POINTS} No interval is valid, because the fit does not describe the data."
     )
     shown = [picture(content, FIT_CAPTION) for name, content in contents.items() if name.endswith(".png")]
-    page = Template((files(__package__) / "fit_report.html").read_text(encoding="utf-8")).substitute(
-        name=escape(scene.name),
-        style=style_sheet(),
-        subject=escape(scene_in_words(scene)),
-        date=time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
-        version=__version__,
-        kind=kind,
-        status=escape(status),
-        answer=paragraphs(fit_answer(result)),
-        parameters=_parameters_table(result),
-        pictures="".join(shown),
-        undetermined=bullets(
-            [sentence(text) for text in result.identifiability],
-            "The data determine every parameter within its bounds."
-            if result.describes_data
-            else "Not known, because the fit does not describe the data.",
+    return framed(
+        "fit_report.html",
+        "fit to measured friction",
+        f"{scene_in_words(scene)}. {time.strftime('%Y-%m-%d %H:%M:%S UTC', time.gmtime())}, lubfric {__version__}.",
+        dict(
+            name=escape(scene.name),
+            kind=kind,
+            status=escape(status),
+            answer=paragraphs(fit_answer(result)),
+            parameters=_parameters_table(result),
+            pictures="".join(shown),
+            undetermined=bullets(
+                [sentence(text) for text in result.identifiability],
+                "The data determine every parameter within its bounds."
+                if result.describes_data
+                else "Not known, because the fit does not describe the data.",
+            ),
+            residuals=bullets(residuals_in_words(result)),
+            warnings=warnings_and_notes(result.validity),
+            effects=_effects(result),
+            about=about,
+            speeds=MEASURED_SPEEDS if result.measured.over == studies.SPEED else "",
+            points=_points_table(result),
+            inputs="".join(
+                inputs_as_given(scene, section, dict(given.get(section, {})), result.parameters)
+                for section in INPUT_SECTIONS
+            ),
+            method=bullets(_method(result)),
+            sources=bullets(result.cite().splitlines()),
+            made=_made(record),
         ),
-        residuals=bullets(residuals_in_words(result)),
-        warnings=warnings_and_notes(result.validity),
-        effects=_effects(result),
-        about=about,
-        speeds=MEASURED_SPEEDS if result.measured.over == studies.SPEED else "",
-        points=_points_table(result),
-        inputs="".join(
-            inputs_as_given(scene, section, dict(given.get(section, {})), result.parameters)
-            for section in INPUT_SECTIONS
-        ),
-        method=bullets(_method(result)),
-        sources=bullets(result.cite().splitlines()),
-        made=_made(record),
     )
-    return page.encode()
 
 
 def fit_status(result: FitResult) -> tuple[str, str]:

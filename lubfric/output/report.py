@@ -4,9 +4,7 @@ import base64
 import math
 from collections.abc import Container, Iterable, Mapping, Sequence
 from html import escape
-from importlib.resources import files
 from itertools import cycle
-from string import Template
 from typing import Any
 
 import numpy as np
@@ -34,6 +32,7 @@ from ..time import TransientResult, effects_of_run, in_motion, rolls, run_model_
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, belongs_to_curve, is_among, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
+from .page import framed
 from .run_files import captions
 
 # columns of the operating table, after the swept quantity, f and its interval
@@ -123,15 +122,13 @@ def report_page(
         if isinstance(result, CurveResult)
         else _history_parts(prepared, result, estimate)
     )
-    home = files(__package__)
-    page = Template((home / "report.html").read_text(encoding="utf-8")).substitute(
+    return framed(
+        "report.html",
+        "friction of a lubricated line contact",
+        f"{scene_in_words(scene)}. {record['date']}, lubfric {record['versions']['lubfric']}.",
         parts
         | {
             "name": escape(scene.name),
-            "style": (home / "report.css").read_text(encoding="utf-8"),
-            "subject": escape(scene_in_words(scene)),
-            "date": escape(record["date"]),
-            "version": escape(record["versions"]["lubfric"]),
             "curve": _pictures(contents, shows_answer=True),
             "warnings": warnings_and_notes([*result.validity, *gap_notes(result)]),
             "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
@@ -139,9 +136,8 @@ def report_page(
             or "<p>There is no contact or rough surface to show.</p>",
             "method": _method(prepared, result, estimate),
             "made": _made(record),
-        }
+        },
     )
-    return page.encode()
 
 
 def gap_notes(result: CurveResult | TransientResult) -> list[str]:
@@ -154,11 +150,6 @@ def _pictures(contents: dict[str, bytes], *, shows_answer: bool) -> str:
     return "".join(
         picture(contents[name], text) for name, text in captions(contents, shows_answer=shows_answer).items()
     )
-
-
-def style_sheet() -> str:
-    """Return the style sheet that all reports share."""
-    return (files(__package__) / "report.css").read_text(encoding="utf-8")
 
 
 def scene_in_words(scene: Scene) -> str:

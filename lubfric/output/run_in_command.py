@@ -7,9 +7,7 @@ import time
 from argparse import Namespace
 from collections.abc import Callable
 from html import escape
-from importlib.resources import files
 from pathlib import Path
-from string import Template
 from typing import Any
 
 import numpy as np
@@ -23,8 +21,9 @@ from ..units import converted, number_of, plain_number, printed, unit_for, with_
 from .command_line import scene_of
 from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
+from .page import framed
 from .progress import ProgressLine
-from .report import picture, style_sheet, table
+from .report import picture, table
 
 # Files of the folder; the last says that the others are complete.
 FOLDER_FILES = ("surface.npy", "run_in.csv", "run_in.png", "scene.toml", "report.html", "run_in.json")
@@ -193,21 +192,25 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
     ]
     drawn = contents.get("run_in.png")
     pictures = [picture(drawn, "Bearing curves before and after running-in")] if drawn else []
-    page = Template((files(__package__) / "run_in_report.html").read_text(encoding="utf-8")).substitute(
-        name=escape(scene.name),
-        style=style_sheet(),
-        date=time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
-        version=__version__,
-        kind="" if result.shaken_down else "failed",
-        status="Converged: no asperity yields any more."
-        if result.shaken_down
-        else "Not complete: asperities still yield.",
-        answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
-        pictures="".join(pictures),
-        table=_table(result),
-        inputs="".join(values),
+    return framed(
+        "run_in_report.html",
+        "running-in of the surface",
+        f"{time.strftime('%Y-%m-%d %H:%M:%S UTC', time.gmtime())}, lubfric {__version__}",
+        dict(
+            name=escape(scene.name),
+            version=__version__,
+            kind="" if result.shaken_down else "failed",
+            status="Converged: no asperity yields any more."
+            if result.shaken_down
+            else "Not complete: asperities still yield.",
+            answer="".join(
+                f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)
+            ),
+            pictures="".join(pictures),
+            table=_table(result),
+            inputs="".join(values),
+        ),
     )
-    return page.encode()
 
 
 def _table(result: RunIn) -> str:

@@ -5,8 +5,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from html import escape
-from importlib.resources import files
-from string import Template
 
 import numpy as np
 
@@ -53,6 +51,7 @@ from ..time import may_move_roughness
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .best_designs import best_lines, best_table
 from .inputs import INPUT_SECTIONS, inputs
+from .page import framed
 from .report import (
     effects_table,
     films_at_limit,
@@ -61,7 +60,6 @@ from .report import (
     picture,
     shortfalls,
     status_kind,
-    style_sheet,
     table,
 )
 
@@ -138,32 +136,36 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     about += " Its last column has the numbers of the warnings above." if any(each.numbers for each in warnings) else ""
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
-    page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
-        name=escape(result.plan.scene.name),
-        style=style_sheet(),
-        date=time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
-        version=__version__,
-        numpy=np.__version__,
-        scipy=scipy.__version__,
-        key=result.plan.keys[0][:16],
-        kind=status_kind(failed=result.failed > 0, inexact=_largely_inexact(result)),
-        status=escape(study_status(result)),
-        answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
-        pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-        warnings=(
-            _list([each.text for each in warnings], kind="ol")
-            if warnings
-            else "<p>No checked limit of the model is exceeded.</p>"
-        )
-        + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
-        best=best_table(result),
-        about=about,
-        table=_table(result, rows, warnings) + _details(result, rows) + _effects_table(result),
-        varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
-        inputs=common_inputs(result),
-        sources=_list(result.cite().splitlines()),
+    return framed(
+        "study_report.html",
+        "study of a lubricated line contact",
+        f"{time.strftime('%Y-%m-%d %H:%M:%S UTC', time.gmtime())}, lubfric {__version__}",
+        dict(
+            name=escape(result.plan.scene.name),
+            version=__version__,
+            numpy=np.__version__,
+            scipy=scipy.__version__,
+            key=result.plan.keys[0][:16],
+            kind=status_kind(failed=result.failed > 0, inexact=_largely_inexact(result)),
+            status=escape(study_status(result)),
+            answer="".join(
+                f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)
+            ),
+            pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
+            warnings=(
+                _list([each.text for each in warnings], kind="ol")
+                if warnings
+                else "<p>No checked limit of the model is exceeded.</p>"
+            )
+            + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
+            best=best_table(result),
+            about=about,
+            table=_table(result, rows, warnings) + _details(result, rows) + _effects_table(result),
+            varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
+            inputs=common_inputs(result),
+            sources=_list(result.cite().splitlines()),
+        ),
     )
-    return page.encode()
 
 
 def _gathered(result: StudyResult) -> list[GatheredTexts]:
