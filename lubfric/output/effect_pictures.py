@@ -207,7 +207,7 @@ def _draw_over_key(
         along = np.array([names.index(value) for value in values.tolist()], dtype=float)
     is_log = axes.get_xscale() == "log"
     scale = np.log(along) if is_log else along
-    step = APART * max(float(np.ptp(scale)), 1e-300)
+    step = APART * (float(np.ptp(scale)) or 1.0)
     for number, (group, colour) in enumerate(zip(groups, _colours(len(groups)))):
         f = columns["coefficient"][group.rows]
         if is_scattered and is_number:

@@ -45,8 +45,8 @@ from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
 from .report import gap_notes, operating_point_not_solved, operating_point_of
-from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, names_of_run
-from .study_pictures import plot_study
+from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR, names_of_run
+from .study_pictures import plot_study, solved_so_far
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
@@ -310,7 +310,7 @@ def plot_again(arguments: Namespace) -> None:
     if name is None and (folder / FIT).is_file():
         _plot_fit_again(arguments)
         return
-    if name is None and (folder / RESOLVED_STUDY).is_file():
+    if name is None and ((folder / RESOLVED_STUDY).is_file() or studies.has_study(folder)):
         _plot_study_again(arguments)
         return
     if not folder.is_dir():
@@ -416,12 +416,23 @@ def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
 
 
 def _plot_study_again(arguments: Namespace) -> None:
-    """Draw the picture of a study again."""
+    """Draw the picture of a study again; of one that is not finished, in a folder of its own, as the study may be running, with a
+    line on stderr that says how much of it is drawn."""
     of_runs = (*OF_MEASURED, "panels", "x_scale", "y_scale", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a study; omit it")
     options = _picture_options(arguments, "study")
     result = studies.open_study(arguments.folder)
-    _write_picture(arguments, "study", partial(plot_study, result=result, options=options))
+    folder = arguments.folder
+    if result.missing:
+        known = int(np.isfinite(result["coefficient"]).sum())
+        if not known:
+            recommendation = "the command of the study continues it"
+            raise InputError(f"{folder} has a study without a solved point so far", recommendation=recommendation)
+        failed = f", {result.failed} failed" if result.failed else ""
+        say(f"the study is not finished: {solved_so_far(result)}{failed}; the picture has these")
+        folder = folder / SO_FAR
+    again = partial(plot_study, result=result, options=options)
+    _write_picture(Namespace(**(vars(arguments) | {"folder": folder})), "study", again)
 
 
 def _plot_fit_again(arguments: Namespace) -> None:

@@ -11,6 +11,7 @@ BIBTEX_FILE = "references.bib"  # what the result cites, as BibTeX
 
 # The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
 RESOLVED_STUDY = "resolved_study.toml"
+SO_FAR = "so_far"  # folder within that of an unfinished study, for its picture
 PICTURE_FORMATS = ("png", "pdf", "svg")  # in which 'lubfric plot' draws a picture again
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import studies
 from .._base import figures
-from ..quantities import COLUMNS
+from ..quantities import COLUMNS, counted
 from .effect_pictures import FEW_SPEEDS, draw_effects
 from .picture_options import PictureOptions
 
@@ -47,6 +47,8 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     """Draw what a study found: operating points with their power loss; else f over the speed, or over a key that is varied, a
     line for each combination of the others; where no lines tell these apart, the effect of each input on f."""
     title = figures.plain_words(result.plan.scene.name) if options.has_title else ""
+    if result.missing:
+        title = "\n".join(filter(None, (title, f"not finished: {solved_so_far(result)}")))
     over = _key_of_axis(result)
     varied = [key for key, (_, values) in result.coords.items() if np.unique(values.astype(str)).size > 1]
     if result.paired and not _is_sample(result):
@@ -74,6 +76,15 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     figures.fit_labels(figure)
     figures.heighten(figure, LEAST_PANEL)
     figure.savefig(path)
+
+
+def solved_so_far(result: studies.StudyResult) -> str:
+    """Return how much of an unfinished study is solved, as text."""
+    solved = result.solved - result.failed
+    if result.chosen:
+        curves = int(np.prod(result.status.shape[:-1], dtype=int))
+        return f"{counted(solved, 'points')} are solved, and {curves - result.missing} of {curves} curves complete"
+    return f"{solved} of {result.status.size} points are solved"
 
 
 def _key_of_axis(result: studies.StudyResult) -> str:

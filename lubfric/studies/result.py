@@ -383,6 +383,11 @@ def result_of_table(table: StudyTable) -> StudyResult:
     return StudyResult(table.plan, ordered | columns, status, validity)
 
 
+def has_study(folder: str | Path) -> bool:
+    """Return whether ``folder`` has the plan of a study, finished or not."""
+    return Store(folder).has(PLAN)
+
+
 @with_default_errors
 def open_study(folder: str | Path) -> StudyResult:
     """Read the result of a study from its folder, whether it is finished or not.

@@ -368,3 +368,34 @@ def test_a_study_without_a_solved_point_has_a_report(tmp_path, capsys):
     said = capsys.readouterr().err
     assert "was not written" not in said and "2 of 2 points failed" in said
     assert "Not complete: 0 of 2 points solved" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_an_unfinished_study_is_drawn_as_far_as_it_is(tmp_path, drawn, capsys):
+    """Even while it runs, which locks its folder; the finished one then takes its usual place."""
+    (tmp_path / "s.toml").write_text(SMALL.to_toml())
+    (tmp_path / "study.toml").write_text('scene = "s.toml"\nspeeds = [0.03, 0.3]\n[vary]\nbodies.load = [3.0, 5.5]\n')
+    out = tmp_path / "out"
+    plan = studies.load_study(tmp_path / "study.toml")
+
+    def stop(done, total, index, outcome):
+        if done == 3:
+            assert main(["plot", str(out)]) == 0
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        lubfric.study(plan, store=out, on_point=stop)
+    assert "the study is not finished: 3 of 4 points are solved" in capsys.readouterr().err
+    assert (out / "so_far" / "study.png").is_file() and not (out / "study.png").exists()
+    result = lubfric.open_study(out)
+    assert study_pictures.solved_so_far(result) == "3 of 4 points are solved"
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(out)]) == 0
+    assert main(["plot", str(out)]) == 0
+    assert (out / "study.png").is_file() and "not finished" not in capsys.readouterr().err
+
+
+def test_a_study_without_a_point_is_not_drawn(tmp_path, drawn, capsys):
+    plan = lubfric.plan_study(SMALL, {"bodies.load": [3.0, 5.5]}, [0.3])
+    with studies.opened(tmp_path / "out") as store:
+        store.add("plan", tuple(getattr(plan, name) for name in studies.result.PLAN_FIELDS))
+    assert main(["plot", str(tmp_path / "out")]) == 2
+    assert "has a study without a solved point so far" in " ".join(capsys.readouterr().err.split())
