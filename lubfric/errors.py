@@ -103,6 +103,10 @@ class WorkLimitError(ConvergenceError):
         return self.message
 
 
+class TooCostlyError(ConvergenceError):
+    """The first steps in time of a strip forecast more counted work than "auto" gives a point. A cheaper model answers then."""
+
+
 class ValidityError(LubfricError, ValueError):
     """A converged solution is outside the range of the model, so that its coefficient is no answer.
 

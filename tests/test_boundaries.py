@@ -95,6 +95,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "AUTO",
         "prepare",
         "ContactFields",
+        "MeasuredTime",
         "Model",
         "ModelAnswer",
         "ModelDetails",

@@ -20,6 +20,8 @@ from .tables import (
 )
 from .work import (
     count_work,
+    forecast_limit,
+    limited_forecast,
     limited_work,
     may_stay_unsolved,
     unlimited_work,

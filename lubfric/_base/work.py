@@ -26,6 +26,9 @@ class WorkMeter:
 
 _METER: ContextVar[WorkMeter | None] = ContextVar("work meter", default=None)
 
+# The most work [s] that a strip may be forecast to take.
+_MOST_FORECAST: ContextVar[float] = ContextVar("most forecast work", default=math.inf)
+
 
 @contextmanager
 def limited_work(limit: float) -> Iterator[WorkMeter]:
@@ -40,6 +43,22 @@ def limited_work(limit: float) -> Iterator[WorkMeter]:
         _METER.reset(token)
         if outer is not None:
             outer.spent += meter.spent
+
+
+@contextmanager
+def limited_forecast(limit: float) -> Iterator[None]:
+    """Limit the work [s] that the first strip of a point inside may be forecast to take: it ends with `TooCostlyError` as soon as its
+    first steps forecast more."""
+    token = _MOST_FORECAST.set(limit)
+    try:
+        yield
+    finally:
+        _MOST_FORECAST.reset(token)
+
+
+def forecast_limit() -> float:
+    """Return the work [s] that a strip may be forecast to take (`limited_forecast`); infinite without a limit."""
+    return _MOST_FORECAST.get()
 
 
 @contextmanager

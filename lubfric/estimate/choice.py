@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
-from .._base import limited_work, work_left
-from ..errors import ConvergenceError, InputError, TooManyCellsError, WorkLimitError
+from .._base import limited_forecast, limited_work, work_left
+from ..errors import ConvergenceError, InputError, TooCostlyError, TooManyCellsError, WorkLimitError
 from ..models import AUTO, Model, SampleSolution, models_cheaper_than, models_up_to
 from ..models.shared import Assumption, Prepared
 from .solve_to_tolerance import solve_to_tolerance
@@ -118,7 +118,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 
     - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
     - if it has a severe violation, so that f means nothing by any model (those `OF_ONE_MODEL` excepted);
-    - if the next model declines (`Model.why_declined`), does not converge, or needs too many cells.
+    - if the next model declines (`Model.why_declined`), does not converge, needs too many cells, or finds by its first steps that
+      it takes more than `Model.most_strip_work_in_auto`.
 
     A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of those
     that take one.
@@ -140,7 +141,10 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             choice = Choice(model=model, solution=adopted)
             continue
         try:
-            choice = _beside(prepared, speed, model, (models[0], first), for_fields=for_fields)
+            with limited_forecast(model.most_strip_work_in_auto):
+                choice = _beside(prepared, speed, model, (models[0], first), for_fields=for_fields)
+        except TooCostlyError as error:
+            return replace(choice, why=f"not the {model.name} model: {error}", gave_up=True)
         except (ConvergenceError, TooManyCellsError) as error:
             return replace(choice, why=f"the {model.name} model was not solved ({error})", gave_up=True)
     return choice

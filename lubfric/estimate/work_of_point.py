@@ -6,14 +6,14 @@ from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from ..models import AUTO, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
+from ..models import AUTO, MeasuredTime, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
 from ..models.shared import ExpectedViolations, Violation
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
 
 # What is known where no time of strips is measured. By definition.
-NOT_MEASURED: Mapping[str, float] = MappingProxyType({})
+NOT_MEASURED: Mapping[str, MeasuredTime] = MappingProxyType({})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,15 +53,16 @@ class PointWorkEstimate:
 
 
 def estimated_work_of_point(
-    scene: Scene, sample: Sample, surface: Surface, speed: float, measured: Mapping[str, float] = NOT_MEASURED
+    scene: Scene, sample: Sample, surface: Surface, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED
 ) -> PointWorkEstimate:
     """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: its `Sample.stated_map`; ``measured``:
-    by the name of a model the time of its strips over what is expected (`lubfric.models.MeasuredTime`)."""
+    by the name of a model what its first steps say of the time of its strips."""
     models = models_up_to(AUTO)
     estimates: list[WorkEstimate] = []
     for model in models:
         expected = model.estimate_work(scene, sample, surface, speed, estimates[-1] if estimates else None)
-        estimates.append(expected.with_strips_taking(measured.get(model.name, 1.0)))
+        is_measured = model.name in measured
+        estimates.append(expected.as_measured(measured[model.name]) if is_measured else expected)
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
     # AUTO tries one after the other until one is good enough

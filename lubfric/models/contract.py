@@ -146,6 +146,12 @@ class Model(ABC):
         other speeds unless it ``is_everywhere``, as text. ``where``: speeds in words."""
         return f"{self.name} model {where}"
 
+    @property
+    def most_strip_work_in_auto(self) -> float:
+        """Counted work [s] of the first strip above which numerics.model = "auto" leaves a point to a cheaper model, once the first
+        steps of the solve forecast it; infinite: none."""
+        return math.inf
+
     def limit_of_work_in_auto(self) -> str:
         """Return the work of a point above which numerics.model = "auto" leaves it to a cheaper model, as text; "": none."""
         return ""

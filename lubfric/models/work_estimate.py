@@ -62,8 +62,14 @@ class WorkEstimate:
     expected_model_error: float = math.nan
     asperities: str = ""
 
-    def with_strips_taking(self, times: float) -> "WorkEstimate":
-        """Return the same if moving roughness takes so many ``times`` as long."""
+    def as_measured(self, measured: "MeasuredTime") -> "WorkEstimate":
+        """Return the same with the time of moving roughness that is ``measured``: without an answer where a strip takes so long that
+        the solve ends after its first steps."""
+        times = measured.over_expected
+        if times * self.strip_seconds > measured.most_strip_seconds:
+            return replace(
+                self, strips=0, seconds=measured.seconds, has_answer=False, strip_seconds=times * self.strip_seconds
+            )
         return replace(
             self,
             seconds=min(times * self.seconds, self.most_seconds),
@@ -81,8 +87,10 @@ class MeasuredTime:
     over_expected : processor time of the strip over that of `WorkEstimate`
     steps : number of steps in time that were measured
     seconds : processor time [s] of the measurement
+    most_strip_seconds : processor time [s] of a strip above which its solve ends after so many steps; infinite: none does
     """
 
     over_expected: float
     steps: int
     seconds: float
+    most_strip_seconds: float = math.inf

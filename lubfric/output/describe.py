@@ -200,14 +200,13 @@ def estimate_scene(
     a model, what its first steps say of its time."""
     scene_speed = scene.motion.entrainment_speed
     speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
-    times = {name: time.over_expected for name, time in (measured or {}).items()}
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         scene_speed = max(speeds)
-    model, seconds = _model(scene, sample, surface, speeds, ratios, times)
+    model, seconds = _model(scene, sample, surface, speeds, ratios, measured or {})
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved:
         beside += estimated_work_of_point(scene, sample, surface, scene_speed).fine_fields_seconds
@@ -270,7 +269,7 @@ def estimate_scene(
         cost=cost,
         seconds=seconds,
         command_seconds=seconds + beside,
-        table=_speed_table(scene, sample, surface, speeds, times),
+        table=_speed_table(scene, sample, surface, speeds, measured or {}),
         refusals=refusals,
         severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
@@ -363,10 +362,10 @@ def _model(
     surface: Surface,
     speeds: list[float],
     ratios: Sequence[float],
-    times: Mapping[str, float],
+    measured: Mapping[str, MeasuredTime],
 ) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
-    of them (`lubfric.estimate.friction`; 0: not known here). ``times``: as ``measured`` of `estimated_work_of_point`."""
+    of them (`lubfric.estimate.friction`; 0: not known here). ``measured``: as of `estimated_work_of_point`."""
     name = scene.numerics.model
     if scene.transient is not None:
         run = run_model_of(scene)
@@ -378,7 +377,7 @@ def _model(
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    forecasts = [estimated_work_of_point(at, sample, surface, speed, times) for at, speed in points]
+    forecasts = [estimated_work_of_point(at, sample, surface, speed, measured) for at, speed in points]
     strip = max((one.slow_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
@@ -449,10 +448,14 @@ def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[s
 
 
 def _speed_table(
-    scene: Scene, sample: Sample, surface: Surface, speeds: list[float], times: Mapping[str, float] = NOT_MEASURED
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speeds: list[float],
+    measured: Mapping[str, MeasuredTime] = NOT_MEASURED,
 ) -> list[tuple[str, ...]]:
     """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
-    the summits touch, and what the sample costs; of a run in time `_moment_table`. ``times``: as ``measured`` of
+    the summits touch, and what the sample costs; of a run in time `_moment_table`. ``measured``: as of
     `estimated_work_of_point`."""
     if scene.transient is not None:
         return _moment_table(scene, sample, surface)
@@ -461,7 +464,7 @@ def _speed_table(
     if sample.is_resolved:
         table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
-        one = estimated_work_of_point(scene, sample, surface, speed, times)
+        one = estimated_work_of_point(scene, sample, surface, speed, measured)
         film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:
             film = _film_in_words(scene, surface, speed, one.asperities)

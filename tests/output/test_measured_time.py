@@ -6,6 +6,7 @@ import pytest
 
 import lubfric
 from lubfric.estimate import estimated_work_of_point
+from lubfric.models import MeasuredTime
 from lubfric.output import main
 
 NEEDLE = """
@@ -46,15 +47,16 @@ def test_a_measured_time_moves_the_estimate_of_its_model_alone(needle):
     prepared = lubfric.prepare(lubfric.load_scene(needle))
     at = (prepared.scene, prepared.sample, prepared.surface, 0.05)
     expected = estimated_work_of_point(*at)
-    of_other = estimated_work_of_point(*at, {"paper": 1.0})
-    doubled = estimated_work_of_point(*at, {"deterministic": 2.0})
+    of_other = estimated_work_of_point(*at, {"paper": MeasuredTime(over_expected=1.0, steps=10, seconds=1.0)})
+    doubled = estimated_work_of_point(*at, {"deterministic": MeasuredTime(over_expected=2.0, steps=10, seconds=1.0)})
     assert of_other == expected
     assert doubled.slow_strip_seconds == pytest.approx(2 * expected.slow_strip_seconds)
     assert doubled.seconds - expected.seconds == pytest.approx(
         expected.slow_strips * expected.slow_strip_seconds, rel=0.5
     )
     limited = prepared.scene.with_(numerics={"max_work": 1.0})
-    assert estimated_work_of_point(limited, *at[1:], {"deterministic": 100.0}).seconds < 2.0
+    far_longer = {"deterministic": MeasuredTime(over_expected=100.0, steps=10, seconds=1.0)}
+    assert estimated_work_of_point(limited, *at[1:], far_longer).seconds < 2.0
 
 
 def test_info_at_rest_solves_nothing(monkeypatch, capsys):

@@ -14,7 +14,9 @@ from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,
     FACTORISATIONS_IN_A_STEP,
+    FORECAST_STEPS,
     KRYLOV_IN_A_STEP,
+    STEPS_BEFORE,
     TIGHT,
     MovingEffort,
     MovingStripSolution,
@@ -25,6 +27,7 @@ from .moving_strip import (
     continued_strip,
     effort_for,
     effort_of,
+    forecast_work,
     solve_moving_strip,
     strip_at_rest,
     work_of_step_in_time,

@@ -21,7 +21,7 @@ from ..shared import (
 from ..work_estimate import MeasuredTime, WorkEstimate
 from .answer import answer_of
 from .counted_work import MOST_WORK_OF_POINT
-from .estimated_work import estimated_work, measured_over_expected, why_too_costly, why_too_many_cells
+from .estimated_work import estimated_work, measured_time, why_too_costly, why_too_many_cells
 from .first_steps import first_steps
 from .heat_of_strip import too_hot_in_words, why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
@@ -95,6 +95,10 @@ class DeterministicModel(Model):
             return f"deterministic model with moving roughness {where}, {target}{elsewhere}"
         return f"load-sharing model, corrected by the deterministic model on some strips, {where}, {target}{elsewhere}"
 
+    @property
+    def most_strip_work_in_auto(self) -> float:
+        return MOST_WORK_OF_POINT
+
     def limit_of_work_in_auto(self) -> str:
         return f"above {MOST_WORK_OF_POINT:g} s of counted work, the quick model replaces it"
 
@@ -118,11 +122,7 @@ class DeterministicModel(Model):
         measured = first_steps(prepared, speed)
         if measured is None:
             return None
-        return MeasuredTime(
-            over_expected=measured_over_expected(prepared, speed, measured),
-            steps=measured.steps,
-            seconds=measured.seconds,
-        )
+        return measured_time(prepared, speed, measured)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", "kept mass") if has_film else ("deterministic model",)

@@ -19,7 +19,7 @@ from ...scene import (
 from ...surface import Surface
 from ..contract import AUTO
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, peak_hertz_pressure, student
-from ..work_estimate import WorkEstimate
+from ..work_estimate import MeasuredTime, WorkEstimate
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness
@@ -416,14 +416,20 @@ def _seconds_in_motion(
     return _pace_in_motion(scene, sample, sq=surface.sq, speed=speed, sample_coarsening=sample_coarsening) * work
 
 
-def measured_over_expected(prepared: Prepared, speed: float, measured: FirstSteps) -> float:
-    """Return the processor time of a strip of moving roughness at ``speed`` [m/s], as its first steps are ``measured``, over what
-    is expected of it."""
+def measured_time(prepared: Prepared, speed: float, measured: FirstSteps) -> MeasuredTime:
+    """Return what the ``measured`` first steps of a strip of moving roughness at ``speed`` [m/s] say of its processor time."""
     scene = prepared.scene
     sample = prepared.sample
     surface = prepared.surface
     expected = _seconds_in_motion(scene, sample, surface, speed)
-    return _seconds_in_motion(scene, sample, surface, speed, measured) / expected
+    seconds = _seconds_in_motion(scene, sample, surface, speed, measured)
+    is_ended = scene.numerics.model == AUTO
+    return MeasuredTime(
+        over_expected=seconds / expected,
+        steps=measured.steps,
+        seconds=measured.seconds,
+        most_strip_seconds=seconds * MOST_WORK_OF_POINT / measured.forecast if is_ended else math.inf,
+    )
 
 
 def _is_too_costly(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:

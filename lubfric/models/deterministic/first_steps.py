@@ -6,24 +6,21 @@ know it better, and what the processor does with it.
 
 import time
 from dataclasses import dataclass
-from itertools import islice
 
 from ..._base import limited_work
 from ...errors import ConvergenceError
 from ..shared import Prepared
-from .moving_strip import effort_of, first_moments, strip_at_rest, work_of_step_in_time
+from .moving_strip import (
+    STEPS_BEFORE,
+    effort_of,
+    first_moments,
+    forecast_work,
+    least_steps,
+    strip_at_rest,
+    work_of_step_in_time,
+)
 from .rough_bodies import bodies_of
-from .strip_on_two_grids import longer_than, surface_and_map_coarsening
-
-# Steps in time that are measured, at most [-]. A choice: the mean of so many is within a factor of 1.2 of that of the complete strip in most
-# of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
-MEASURED_STEPS = 10
-
-# Steps in time before them [-]: the first ones from rest take more. A choice, above `moving.STEPS_FROM_REST`.
-STEPS_BEFORE = 3
-
-# Counted work [s] after which the measurement ends, with a step that counts. A choice: a twelfth of `MOST_WORK_OF_POINT`.
-ENOUGH_WORK = 10.0
+from .strip_on_two_grids import MOVING_SAMPLE, longer_than, sample_target, surface_and_map_coarsening
 
 # Counted work [s] of the measurement, at most. A choice: four times as much, for a strip at rest that takes long.
 MOST_WORK_OF_MEASUREMENT = 40.0
@@ -38,6 +35,7 @@ class FirstSteps:
     steps : number of steps in time that count
     factor : counted work of a step in time over `work_of_step_in_time`
     rest : counted work of the strip at rest, from which the motion begins, over the same
+    forecast : counted work [s] of the strip at least (`forecast_work`)
     pace : processor time over counted work
     seconds : processor time [s] of the measurement
     """
@@ -45,6 +43,7 @@ class FirstSteps:
     steps: int
     factor: float
     rest: float
+    forecast: float
     pace: float
     seconds: float
 
@@ -65,14 +64,19 @@ def first_steps(prepared: Prepared, speed: float) -> FirstSteps | None:
             rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, start=longer, effort=effort)
             of_rest = meter.spent
             spent = of_rest
-            for _ in islice(
-                first_moments(scene, bodies, speed, rest=rest, effort=effort), STEPS_BEFORE + MEASURED_STEPS
-            ):
+            has_target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance) is not None
+            cell = rest.problem.spacing[0]
+            steps = least_steps(scene, bodies, speed, cell=cell, effort=effort, has_target=has_target)
+            forecast: float | None = None
+            for _ in first_moments(scene, bodies, speed, rest=rest, effort=effort):
                 works.append(meter.spent - spent)
                 spent = meter.spent
-                if spent > ENOUGH_WORK and len(works) > STEPS_BEFORE:
+                forecast = forecast_work(works, steps=steps, rest=rest.work)
+                if forecast is not None:
                     break
     except ConvergenceError:
+        return None
+    if forecast is None:  # it took all that a measurement may
         return None
     seconds = time.process_time() - begun
     usual = work_of_step_in_time(rest.result.pressure.size)
@@ -81,6 +85,7 @@ def first_steps(prepared: Prepared, speed: float) -> FirstSteps | None:
         steps=len(counted),
         factor=sum(counted) / len(counted) / usual,
         rest=of_rest / usual,
+        forecast=forecast,
         pace=seconds / spent,
         seconds=seconds,
     )

@@ -25,7 +25,7 @@ from functools import partial
 
 import numpy as np
 
-from ..._base import may_stay_unsolved, work_left
+from ..._base import forecast_limit, may_stay_unsolved, work_left
 from ..._base.jobs import map_parts
 from ...quantities import names_with
 from ...samples import Sample
@@ -214,8 +214,9 @@ def solve_pairs(
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells
     is above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as
-    many strips as the sample needs stay within `MOST_WORK_OF_POINT`."""
-    pair = solve_pair(prepared, speed, 0, find_slope=True)
+    many strips as the sample needs stay within `MOST_WORK_OF_POINT`. Raises `TooCostlyError` where its first steps forecast
+    more than the caller allows (`limited_forecast`)."""
+    pair = solve_pair(prepared, speed, 0, find_slope=True, most_work=forecast_limit())
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
     cells = cells_of_strips(prepared, [pair.resolved], pair.change_by_cells)

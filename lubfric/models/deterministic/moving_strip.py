@@ -10,6 +10,7 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from ..._base.progress import report_progress
+from ...errors import TooCostlyError
 from ...film import LineContact
 from ...oil import FLOW_LAWS, LIMIT_LAWS, Lubricant
 from ...scene import HARDNESS_KEY, Scene, value_of
@@ -86,6 +87,17 @@ PILOT_WAY = 1.5
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
 # than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
 MOMENTS_GROWTH = (1.25, 2.5)
+
+# Steps in time that forecast the work of a strip, at most [-]. A choice: the mean of so many is within a factor of 1.2 of that of the
+# complete strip in most of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
+FORECAST_STEPS = 10
+
+# Steps in time before them [-]: the first ones from rest take more. A choice, above `moving.STEPS_FROM_REST`.
+STEPS_BEFORE = 3
+
+# Counted work [s] of the steps in time after which a forecast takes those that there are. A choice: a twelfth of
+# `MOST_WORK_OF_POINT`.
+ENOUGH_WORK = 10.0
 
 # Moments over those that the error needs [-]. A convention.
 MOMENTS_SPARE = 1.1
@@ -258,12 +270,13 @@ def solve_moving_strip(
     effort: MovingEffort | None = None,
     most_steps: int | None = None,
     target: SampleTarget | None = None,
+    most_work: float = math.inf,
 ) -> MovingStripSolution:
     """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map, or until the
     ``target`` is reached. Their speeds are along the motion.
 
     What follows until the film has passed the contact (`MovingEffort.discarded`, in Hertz half-widths, or in those of
-    the smooth film where that is wider) is discarded. Raises `InputError` and `ConvergenceError`.
+    the smooth film where that is wider) is discarded. Raises `InputError`, `ConvergenceError`, and `TooCostlyError`.
 
     Parameters
     ----------
@@ -271,12 +284,14 @@ def solve_moving_strip(
     effort : None: `effort_for` the contact
     most_steps : moments that count, at most (None: a complete pass of the map)
     target : None: the complete map passes
+    most_work : counted work [s] that its first steps in time (`forecast_work`) may forecast
     """
     effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     near = None if start is None else start.at_rest
     rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, start=near, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
+    required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
     travelled = _travelled(bodies, speed, step, film_half_width(rest.problem.line))
     passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
@@ -284,10 +299,15 @@ def solve_moving_strip(
     no_ends = InputEnds(oils={}, hardness=())
     records: list[MomentRecord] = []
     state_after_discard = rest.result.state
-    required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
+    forecast: float | None = None
     for number, moment in enumerate(islice(passing, 1, None), 1):
         records.append(_recorded(moment, summits_at(number * step), ends if number > discarded else no_ends))
         report_progress("moving roughness", number, discarded + required)
+        if forecast is None and number < discarded + required:
+            works = [record.numbers["work"] for record in records]
+            forecast = forecast_work(works, steps=discarded + required, rest=rest.work)
+            if forecast is not None and forecast > most_work:
+                raise TooCostlyError(_too_costly_in_words(number, forecast, most_work))
         if number == discarded:
             state_after_discard = moment.at.state
         if number == discarded + required:
@@ -317,6 +337,34 @@ def solve_moving_strip(
             for name in ends.oils
         },
         moved=dict(zip(ends.hardness, np.mean([record.moved for record in records[discarded:]], axis=0).tolist())),
+    )
+
+
+def forecast_work(works: Sequence[float], *, steps: int, rest: float) -> float | None:
+    """Return the counted work [s] of a strip of so many ``steps`` in time, as its first ones forecast it, whose ``works`` [s] are known;
+    ``rest``: that of the strip at rest. None where more of them have to be seen: `FORECAST_STEPS` after `STEPS_BEFORE`, or fewer
+    that take `ENOUGH_WORK`."""
+    seen = works[STEPS_BEFORE:]
+    if not seen or (len(seen) < FORECAST_STEPS and sum(works) <= ENOUGH_WORK):
+        return None
+    return rest + sum(works) + float(np.mean(seen)) * max(0, steps - len(works))
+
+
+def least_steps(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, *, cell: float, effort: MovingEffort, has_target: bool
+) -> int:
+    """Return the number of steps in time of `solve_moving_strip`, at least, on cells [m] along x; ``has_target``: whether it ends when
+    its `SampleTarget` is reached."""
+    step, discarded, count = _steps_of(scene, bodies, speed, cell, effort)
+    line = scene.line_contact(abs(speed))
+    return discarded + (min(count, _pilot(line, bodies, step)) if has_target else count)
+
+
+def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
+    """Return that the first steps in time, so many (``number``), ``forecast`` more work [s] than the ``most`` that is allowed."""
+    return (
+        f"the roughness moves, and by its first {number} steps in time one strip would take at least {float(f'{forecast:.2g}'):g} s of "
+        f"counted work, more than {most:g} s; numerics.model = 'deterministic' solves it"
     )
 
 

@@ -146,11 +146,13 @@ def solve_pair(
     slope: float = UNKNOWN_SLOPE,
     find_slope: bool = False,
     has_halved_cells: bool = False,
+    most_work: float = math.inf,
 ) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
     ``slope``: of friction over load [-], as another strip has it; ``find_slope``: it is found by a second solve in its place,
-    where the roughness rests (where that moves, blocks of time and place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. Raises `ConvergenceError`.
+    where the roughness rests (where that moves, blocks of time and place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. ``most_work``: as of
+    `solve_moving_strip`. Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
@@ -163,7 +165,15 @@ def solve_pair(
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
         target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
-        moving = solve_moving_strip(scene, bodies, speed, map_coarsening=map_coarsening, start=longer, target=target)
+        moving = solve_moving_strip(
+            scene,
+            bodies,
+            speed,
+            map_coarsening=map_coarsening,
+            start=longer,
+            target=target,
+            most_work=most_work,
+        )
         strip = moving
         if longer_cells[1] > map_coarsening[1]:
             with may_stay_unsolved():  # then the change at rest is all that is known
