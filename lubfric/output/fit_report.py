@@ -273,7 +273,7 @@ def _method(result: FitResult) -> list[str]:
     scale = "the stated standard deviations" if measured.deviation is not None else "the measured f"
     rolling = "contain" if measured.rolling else "do not contain"
     search = (
-        f"A search by the load-sharing model, from the start and {counted(result.starts, 'further starts')} over the bounds, found "
+        f"A search by the load-sharing model, {studies.starts_in_words(result.starts)}, found "
         "the minimum from which the fit began."
         if result.starts
         else "The fit began at the start alone, without a search over the bounds."
@@ -297,7 +297,11 @@ def _made(record: Mapping[str, Any]) -> str:
 
     versions = {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
     rows = [*versions.items(), *((f"SHA-256 of {path}", checksum) for path, checksum in record["sha256"].items())]
-    rows += [("curves solved", record["curves"]), ("wall-clock time", f"{record['seconds']:.3g} s")]
+    rows += [
+        ("curves of the fit, without those of the search", record["curves"]),
+        ("wall-clock time", f"{record['seconds']:.3g} s"),
+    ]
+    rows += [("processor time, all processes together", f"{record['processor_seconds']:.3g} s")]
     lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
     note = (
         f"<p><code>{escape(record['command'])}</code> computes the same numbers with the versions and files below. fitted.toml is the "

@@ -217,7 +217,7 @@ def run_fit(arguments: Namespace) -> None:
             )
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             to_come = f"about {studies.in_words(left)} left" if done < total else "the last one that was expected"
-            passed = f"{begun.seconds:.0f} s, {to_come}"
+            passed = f"{begun.processor_seconds:.0f} s of processor time, {to_come}"
             state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
             if math.isnan(misfit):
                 state = f"search by the load-sharing model, curve {done} of about {total}: lowest at {place}"
@@ -236,6 +236,7 @@ def run_fit(arguments: Namespace) -> None:
             "sha256": checksums,
             "curves": fitted.report.evaluations,
             "seconds": begun.seconds,
+            "processor_seconds": begun.processor_seconds,
         }
         page = partial(fit_page, given=given, record=made_of)
         folder.add("report.html", page, fitted, folder.contents)

@@ -1,6 +1,5 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -12,6 +11,7 @@ import numpy as np
 
 from .._base import validate, with_default_errors
 from .._base.processes import checked_executor
+from .._base.processor_time import processor_time
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..quantities import counted, worded_value
 from ..scene import Scene
@@ -100,7 +100,7 @@ def fit(
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     store : folder that receives every point at once; the same fit continues from there
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about
-        ``total`` curves, about ``left`` seconds left on one core, the least root mean square misfit so far of the
+        ``total`` curves, about ``left`` seconds of processor time left, the least root mean square misfit so far of the
         scene's own model (relative, or in deviations if these are given; NaN during the search, whose model and points
         are others), and the best ``values`` {"section.key": value} so far
 
@@ -168,10 +168,12 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
     searched, fitted, seconds = _estimated(coarse, fine, _start(scene, bounds, {}), starts)
     if starts:
         size = counted(coarse.measured.x.size, "points")
-        lines.append(f"  search: about {searched} curves of {size} by the load-sharing model, over the complete bounds")
+        lines.append(
+            f"  search: {starts_in_words(starts)}; about {searched} curves of {size} by the load-sharing model"
+        )
     both = f"; {searched + fitted} with those of the search" if starts else ""
     lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}{both}")
-    return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core ({WITHIN_WORDS})"])
+    return "\n".join([*lines, f"  time: about {in_words(seconds)} of processor time ({WITHIN_WORDS})"])
 
 
 def estimated_fit(
@@ -181,6 +183,11 @@ def estimated_fit(
     bounds = _checked(scene, measured, parameters)
     coarse, fine = _curves(scene, measured, bounds)
     return _estimated(coarse, fine, _start(scene, bounds, {}), _checked_starts(scene, starts, bounds))[2]
+
+
+def starts_in_words(starts: int) -> str:
+    """Return from where the search of a fit with so many further ``starts`` begins, as text."""
+    return f"from the start and {counted(starts, 'further starts')} over the complete bounds"
 
 
 def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int) -> tuple[int, int, float]:
@@ -268,7 +275,7 @@ class _Progress:
         self.on_progress = on_progress
         self.least: dict[int, tuple[float, np.ndarray]] = {}
         self.elapsed = dict.fromkeys(self.curves, 0.0)
-        self.reported = time.perf_counter()
+        self.reported = processor_time()
 
     def report(self, curves: FitCurves) -> None:
         """Report the last of ``curves``.
@@ -276,7 +283,7 @@ class _Progress:
         A curve takes what those of its kind took with their maps; of a kind that has none yet what was estimated, times the
         ratio of what the others took to their estimates.
         """
-        now = time.perf_counter()
+        now = processor_time()
         self.elapsed[id(curves)] += now - self.reported
         self.reported = now
         if curves.count > curves.expected:  # the steps go on: one more, with its differences
@@ -291,7 +298,10 @@ class _Progress:
         done = sum(kind.count for kind, _ in self.curves.values())
         total = done
         left = 0.0
-        taken = {id(kind): max(kind.spent, self.elapsed[id(kind)]) for kind, _ in self.curves.values()}
+        taken = dict(self.elapsed)
+        for key, (kind, _) in self.curves.items():
+            if kind.has_executor:  # other processes may report no processor time
+                taken[key] = max(kind.spent, taken[key])
         expected_so_far = sum(kind.count * estimated for kind, estimated in self.curves.values())
         slower = sum(taken.values()) / expected_so_far if expected_so_far > 0 else 1.0
         for kind, estimated in self.curves.values():

@@ -97,6 +97,11 @@ class FitCurves:
         return len(self.parameters) - (self.linear_place is not None)
 
     @property
+    def has_executor(self) -> bool:
+        """Whether points are solved by a given executor."""
+        return self._executor is not None
+
+    @property
     def spent(self) -> float:
         """Seconds that the points of these curves took."""
         return sum(point.seconds for curve in self._curves.values() for point in curve)
