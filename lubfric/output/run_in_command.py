@@ -19,14 +19,15 @@ from ..scene import Scene
 from ..studies import WITHIN_WORDS, in_words
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, run_folder, say
+from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, references, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
 from .page import framed
 from .progress import ProgressLine
 from .report import picture, table
+from .run_files import BIBTEX_FILE
 
 # Files of the folder; the last says that the others are complete.
-FOLDER_FILES = ("surface.npy", "run_in.csv", "run_in.png", "scene.toml", "report.html", "run_in.json")
+FOLDER_FILES = ("surface.npy", "run_in.csv", "run_in.png", "scene.toml", "report.html", BIBTEX_FILE, "run_in.json")
 
 
 def run_in_scene(arguments: Namespace) -> None:
@@ -60,6 +61,7 @@ def run_in_scene(arguments: Namespace) -> None:
         folder.draw("run_in.png", draw_run_in, result, figures.plain_words(scene.name))
         folder.add("scene.toml", lambda: scene_after(scene, result).encode())
         folder.add("report.html", _page, scene, result, answer, folder.contents)
+        folder.add(BIBTEX_FILE, references, result)
         folder.add("run_in.json", lambda: json.dumps(plain(_record(scene, result, folder.contents)), indent=1).encode())
         _put(folder)
     say(f"lubfric run {Path(arguments.out) / 'scene.toml'} computes the friction of the surface after running-in")

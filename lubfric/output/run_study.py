@@ -192,14 +192,14 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
 
 
 def run_fit(arguments: Namespace) -> None:
-    """Say what it will cost, search, and write fitted.toml, fit.png, report.html and, last, fit.json."""
+    """Say what it will cost, search, and write fitted.toml, fit.png, report.html, references.bib and, last, fit.json."""
     for name in ("measured", "coefficient"):
         if getattr(arguments, name) is None:
             raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")
     if (arguments.speed is None) == (arguments.ratio is None):
         raise InputError("a measured curve is over one quantity; give --speed or --ratio, the heading of its column")
     scene = scene_of(arguments)
-    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "report.html", "fit.json"))
+    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "report.html", BIBTEX_FILE, "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
     bounds = _bounds(arguments.parameter)
     begun = CommandStart.now()
@@ -240,6 +240,7 @@ def run_fit(arguments: Namespace) -> None:
         }
         page = partial(fit_page, given=given, record=made_of)
         folder.add("report.html", page, fitted, folder.contents)
+        folder.add(BIBTEX_FILE, references, fitted)
         folder.add("fit.json", lambda: json.dumps(plain(_record(fitted)), indent=1).encode())
         folder.put()
 

@@ -16,6 +16,7 @@ from .._base import FrozenArrays, Shown, figures, limited_work, table_bytes, val
 from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
+from ..estimate import cited
 from ..models import AUTO, MODELS, model_named
 from ..models.load_sharing import flattening
 from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
@@ -93,6 +94,11 @@ class RunIn(FrozenArrays, Shown):
     def dents(self) -> np.ndarray:
         """Depth of the dents [m], without wear, (nx, ny)."""
         return self.before.heights - self.dented.heights
+
+    def cite(self, format: str = "text") -> str:
+        """Return the publications of the contact that dents the surface and, with wear, of the law of wear and of the asperity
+        pressure: one a line, or with ``format`` "bibtex" as BibTeX entries."""
+        return cited(("half-space contact", *(("wear", "load sharing") if self.wear is not None else ())), format)
 
     def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m]

@@ -25,7 +25,7 @@ IN_THE_WAY = {
     "sharing.png resolved.toml .lubfric .lubfric.lock unfinished",
     "history": "history.csv history.png fields.npz surface.png report.html resolved.toml result.json unfinished",
     "study": "study.csv .lubfric",
-    "fit": "fitted.toml fit.png report.html fit.json",
+    "fit": "fitted.toml fit.png report.html references.bib fit.json",
 }
 # Files of the user that stand beside the results.
 BESIDE = {

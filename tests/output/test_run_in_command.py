@@ -1,6 +1,7 @@
 """``lubfric run-in``: the map it writes is that of `lubfric.run_in`, and the scene it writes takes this map."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -43,6 +44,9 @@ def test_the_files_hold_what_the_function_returns(folder):
     assert {what for what, _, _ in steps} == {"pass", "wear", "friction at distances of wear"}
     assert ("wear", 100, 100) in steps
     assert json.loads((folder / "out" / "run_in.json").read_text())["passes"]["shaken_down"] is True
+    sources = (folder / "out" / "references.bib").read_text(encoding="utf-8")
+    assert sources == f"{result.cite('bibtex')}\n" and "10.1063/1.1721448" in sources  # of Archard's law
+    assert "Archard" not in replace(result, wear=None).cite() and "Polonsky" in replace(result, wear=None).cite()
 
 
 def test_the_scene_it_writes_takes_the_map(folder):

@@ -413,6 +413,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
     assert record["values"] == result.values and record["starts"] == 2 and record["describes_data"]
     assert fitted.lubricant.viscosity == pytest.approx(list(result.values.values())[0])
+    assert (tmp_path / "out" / "references.bib").read_text(encoding="utf-8") == f"{result.cite('bibtex')}\n"
     drawn = (tmp_path / "out" / "fit.png").read_bytes()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "fit.png").read_bytes() == drawn
     assert main(["plot", str(tmp_path / "out"), "--width", "85 mm", "--format", "pdf"]) == 0
