@@ -18,10 +18,12 @@ from .arrays import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axes._base import _AxesBase
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
     from matplotlib.text import Text
+    from matplotlib.transforms import Bbox
 
 
 Plot = TypeVar("Plot", bound=Callable[..., Any])
@@ -284,6 +286,41 @@ def hertz_strip(axes: Axes, half_width: float) -> None:
             axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
 
 
+# Distance of a bar of colours from the map below it [inch], at most. A choice, by looking at the figures.
+ABOVE_MAP = 0.08
+
+
+class _AlongMap:
+    """Where a bar of colours is drawn: beside its map and as high, or above it and as wide. A map that is to scale is smaller
+    than its place in the figure."""
+
+    def __init__(self, axes: Axes, bar: Axes, *, is_above: bool):
+        self.axes = axes
+        self.inner = bar.get_axes_locator()
+        self.is_above = is_above
+
+    def __call__(self, bar: _AxesBase, renderer: Any) -> Bbox:
+        from matplotlib.transforms import Bbox
+
+        place = bar.get_position(original=True)  # of the layout, as long as the place of the map
+        box = (
+            place if self.inner is None else self.inner(bar, renderer)
+        )  # without the ends that point at clipped values
+        drawn = self.axes.get_position()
+        whole = self.axes.get_position(original=True)
+        if self.is_above:
+            times = drawn.width / place.width
+            left = drawn.x0 + times * (box.x0 - place.x0)
+            figure = bar.get_figure(root=True)
+            assert figure is not None  # it is drawn
+            above = drawn.y1 + ABOVE_MAP / figure.get_figheight()
+            bottom = min(box.y0 + drawn.y1 - whole.y1, above)  # the layout leaves room for a key of the next panel
+            return Bbox.from_bounds(left, bottom, times * box.width, box.height)
+        times = drawn.height / place.height
+        bottom = drawn.y0 + times * (box.y0 - place.y0)
+        return Bbox.from_bounds(box.x0 + drawn.x1 - whole.x1, bottom, box.width, times * box.height)
+
+
 def field_image(
     axes: Axes,
     x: FloatArray,
@@ -307,6 +344,7 @@ def field_image(
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
     axes.grid(visible=False)
     bar = axes.figure.colorbar(image, ax=axes, label=label, extend=extend, location=place)
+    bar.ax.set_axes_locator(_AlongMap(axes, bar.ax, is_above=place == "top"))
     if isinstance(image.norm, LogNorm):
         bar.long_axis.set_major_formatter("{x:g}")
         plain_ticks(bar.long_axis)

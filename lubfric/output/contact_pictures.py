@@ -34,6 +34,8 @@ PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap 
 INLET_PRESSURE = 0.01  # of the largest mean pressure along the line, from which on an inlet is drawn
 LEAST_HEIGHT = 4.0  # inch: height of both beside each other across a page, with the bar and the key above them
 SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
+MAP_IN_SECTION = 4.3  # inch: width of a map of the contact pressure beside a section
+ABOVE_SECTION = 1.7  # inch above and below these: title, key and labels
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
 CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
 
@@ -220,7 +222,8 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
         slender = bool(np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x))
         if options.width is None and are_stacked(fields.x, fields.y[part]):
             wide = True
-    (figure, axes) = _panels(sum(panels), options, slender=slender)
+    ratio = 1.0 if fields is None or not touching else _drawn_ratio(fields.x, fields.y[part])
+    (figure, axes) = _panels(sum(panels), options, slender=slender, ratio=ratio)
     if fields is not None and wide:
         (figure, axes) = _stacked(sum(panels), _drawn_ratio(fields.x, fields.y[part]), options)
     title = f"{'' if options.is_narrow else 'load-sharing model: '}U = {contact.speed:g} m/s"
@@ -247,10 +250,12 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     return figure
 
 
-def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figure, list[Axes]]:
-    """Return a figure with ``count`` panels: beside each other, or in a narrow picture below each other."""
+def _panels(count: int, options: PictureOptions, *, slender: bool, ratio: float) -> tuple[Figure, list[Axes]]:
+    """Return a figure with ``count`` panels: beside each other, or in a narrow picture below each other. ``ratio``: height over
+    width of the map, which is no lower than the section needs."""
     ratios = [0.55 if slender else 1.0, 1.0][:count]
     (width, height) = SECTION_SIZE
+    height = min(height, ABOVE_SECTION + MAP_IN_SECTION * ratio)
     size = (width * sum(ratios), height)
     if options.width is not None:
         whole = options.width / INCH

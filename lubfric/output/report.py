@@ -362,7 +362,12 @@ def _change_of_model(curve: CurveResult) -> list[str]:
 
 def _model_of(point: FrictionResult) -> str:
     """Return what a ``point`` is by, as text."""
-    return point.decision.basis or f"model {point.decision.model}"
+    return model_in_words(point.decision.basis, point.decision.model)
+
+
+def model_in_words(basis: str, model: str) -> str:
+    """Return by which ``model`` a point is; the ``basis`` where it has one (`lubfric.models.shared.Decision`)."""
+    return basis or f"{model} model"
 
 
 def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:

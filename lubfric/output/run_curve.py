@@ -44,7 +44,7 @@ from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
-from .report import gap_notes, operating_point_not_solved, operating_point_of
+from .report import gap_notes, model_in_words, operating_point_not_solved, operating_point_of
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR, names_of_run
 from .study_pictures import plot_study, solved_so_far
 
@@ -241,16 +241,21 @@ def _write_fields(
 
 
 def _title(name: str, points: list[dict[str, Any]]) -> str:
-    """Return the title of the picture of a curve: the ``name`` of the scene, and what the model-form error of its ``points``
-    (of its record) rests on, where a point states it, the most frequent first. The band of the picture shows how large it
-    is."""
+    """Return the title of the picture of a curve: the ``name`` of the scene, and by which models its ``points`` (of its
+    record) are, the most frequent first. The band of the picture shows how large their errors are."""
     solved = [point for point in points if "error" not in point]
-    stated = Counter(point["basis"] for point in solved if point.get("basis"))
+    stated = Counter(filter(None, map(_model_of_record, solved)))
     lines = [
         basis if count == len(solved) else f"{basis} ({count} of {counted(len(solved), 'points')})"
         for basis, count in stated.most_common()
     ]
     return "\n".join([name, *lines])
+
+
+def _model_of_record(point: dict[str, Any]) -> str:
+    """Return by which model a ``point`` of a record is, as `model_in_words`; "" in a record that does not have it."""
+    model = point.get("model")
+    return model_in_words(point.get("basis") or "", model or "") if model or point.get("basis") else ""
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:
@@ -294,6 +299,7 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
         "report": point.report.as_dict(),
         "unmodelled_effects": [effect_in_words(effect) for effect in point.unmodelled_effects],
         "basis": point.decision.basis,
+        "model": point.decision.model,
     }
     return {number: getattr(point, number) for number in NUMBERS} | swept | more
 

@@ -673,3 +673,20 @@ def test_few_values_of_a_study_are_named_and_many_are_read_off_a_bar():
     drawn = {to_rgb(line.get_color()) for line in axes.lines if len(line.get_xdata()) == 2}
     assert drawn == set(colours) and len(drawn) == 3
     assert max(0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in colours) < 0.8
+
+
+@pytest.mark.parametrize("shape", [(64, 20), (20, 64), (40, 40)])
+@pytest.mark.parametrize("place, along", [("right", "y"), ("top", "x")])
+def test_a_bar_of_colours_is_as_long_as_its_map(shape, place, along):
+    """A map that is to scale is smaller than its place, in which the bar was drawn; ends for clipped values lie beyond it."""
+    figure = new_figure(figsize=(7, 4), layout="constrained")
+    axes = figure.subplots(1, 2)[0]
+    values = np.arange(float(np.prod(shape))).reshape(shape)
+    field_image(axes, *(np.arange(count) * 1e-6 for count in shape), values, "viridis", "label", place=place)
+    figure.draw_without_rendering()
+    (bar,) = figure.axes[2:]
+    drawn, of_map = (each.get_position() for each in (bar, axes))
+    for end in (f"{along}0", f"{along}1"):
+        assert getattr(drawn, end) == pytest.approx(getattr(of_map, end), abs=1e-6)
+    gap = drawn.x0 - of_map.x1 if place == "right" else drawn.y0 - of_map.y1
+    assert 0 < gap < 0.1

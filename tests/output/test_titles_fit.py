@@ -55,8 +55,11 @@ def test_a_curve_by_two_models_says_which_points_are_by_which(monkeypatch):
     ratios = sorted((ratio, basis) for basis, values in names.items() for ratio in values)
     title = run_curve._title("rig", [{"basis": basis} for _, basis in ratios])
     assert title.splitlines() == ["rig", "load-sharing model (3 of 5 points)", "long cells (2 of 5 points)"]
+    others = [{"basis": "", "model": "deterministic"}] * 4
+    both = run_curve._title("rig", [*others, {"basis": "long cells", "model": "quick"}])
+    assert both.splitlines() == ["rig", "deterministic model (4 of 5 points)", "long cells (1 of 5 points)"]
     titles: list[str] = []
-    monkeypatch.setattr(run_curve, "plot_traction", lambda path, columns, title, *_: titles.append(title))
+    monkeypatch.setattr(run_curve, "plot_traction", lambda path, columns, title, *_, **__: titles.append(title))
     columns = {name: np.ones(5) for name in ("ratio", "speed", "coefficient")}
     run_curve._plot(SimpleNamespace(), columns, title, [])
     assert titles[0].splitlines() == ["rig, U = 1 m/s", *title.splitlines()[1:]]

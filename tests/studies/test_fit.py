@@ -502,9 +502,9 @@ def test_the_time_left_of_a_fit_corrects_the_estimates_by_the_clock(monkeypatch)
     three times too; after one that took less they count as that. A curve beyond the expected ones raises their number."""
     fit_module = import_module("lubfric.studies.fit")
     clock = [100.0]
-    monkeypatch.setattr(fit_module.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(fit_module, "processor_time", lambda: clock[0])
     facts = {"count": 0, "spent": 0.0, "changed": 1, "solved": [np.array([0.5])], "parameters": {}}
-    facts |= {"solves_differences": False}
+    facts |= {"solves_differences": False, "has_executor": False}
     calls = {"misfit": lambda _: 0.1, "lowest_over_boundary_friction": lambda unit: unit}
     (coarse, fine) = [SimpleNamespace(**facts, **calls) for _ in "12"]
     estimates = {id(coarse): 2.0, id(fine): 5.0}
