@@ -90,7 +90,7 @@ PARTS = {
         name_in_words=lambda uncertainty: f"{uncertainty.missing_input} not given",
         is_stated_if_zero=False,
         sides="not_given_sides",
-        recommendation=lambda uncertainty: f"a measured {uncertainty.missing_input} reduces it",
+        recommendation=lambda uncertainty: f"give a measured {uncertainty.missing_input} to reduce it",
     ),
     "input": BudgetPart(
         quantity="inputs",
@@ -98,7 +98,7 @@ PARTS = {
         name_in_words=lambda uncertainty: uncertainty.input_in_words,
         is_stated_if_zero=False,
         sides="input_sides",
-        recommendation=lambda uncertainty: f"a measured {uncertainty.largest_input or 'value'} reduces it",
+        recommendation=lambda uncertainty: f"give a measured {uncertainty.largest_input or 'value'} to reduce it",
     ),
 }
 
@@ -149,7 +149,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     input_sides: tuple[float, float] = UNKNOWN_SIDES
     largest_in_model: ModelErrorPart | None = None
     narrows_numerical: str = REDUCED_BY_TOLERANCE
-    narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
+    narrows_sampling: str = "set a smaller numerics.sampling_tolerance to reduce it"
     missing_input: str = ""
     largest_input: str = ""
     inputs_in_interval: tuple[str, ...] = ()

@@ -21,8 +21,8 @@ CUT_AT_ZERO = "the interval begins at the smallest f that resists the sliding"
 RESISTS_SLIDING = "the interval begins at {:.3g}, the smallest f whose sliding part resists the sliding"
 
 # What narrows the sampling error, by whether the sample has more strips.
-SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance reduces it"
-LARGER_MAP = "a larger map reduces it"
+SMALLER_SAMPLING_TOLERANCE = "set a smaller numerics.sampling_tolerance to reduce it"
+LARGER_MAP = "give a larger map to reduce it"
 
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")

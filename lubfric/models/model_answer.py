@@ -149,7 +149,7 @@ class ModelAnswer:
     area_needed: float = 1.0
     notes: tuple[str, ...] = ()
     violations: tuple[Violation, ...] = ()
-    recommendation: str = "a larger numerics.tolerance"
+    recommendation: str = "set a larger numerics.tolerance"
     fields: ContactFields | None = None
     fine_fields: Callable[[], ContactFields] | None = None
     details: ModelDetails | None = None

@@ -612,7 +612,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         lines.append(f"uncertainty of f {at_value(place, unit, plural)}{more}: {'; '.join(worst.notes)}")
         if few and few != [place]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
-            lines.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
+            lines.append(f"few asperity contacts carry the load {where}, so these intervals may be too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):
         lines.append("accepted outside the range of the model (--accept): the marked coefficients have no meaning")
     return lines

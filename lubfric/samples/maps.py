@@ -74,7 +74,7 @@ def way_to_longer_line(scene: Scene, surface: Surface) -> str:
 def way_to_longer_patch(scene: Scene, surface: Surface) -> str:
     """Return how the patch ``surface`` of ``scene`` becomes longer along the motion, as text."""
     if not is_measured(scene):
-        return "a patch that is longer in x: contact.shape"
+        return "a contact.shape that is longer along x"
     (name, _) = limiting_map(scene, surface, 0)
     mirror = f"{name}.extension = 'mirror', which continues the map by its mirror image"
     return f"{mirror}, or a map that is longer along the motion{_axis_of_file(scene, name, 0)}"

@@ -170,6 +170,6 @@ def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
             value=100 * uncertainty.sampling,
             limit=100 * uncertainty.tolerance,
             unit="%",
-            consequence="this is more than numerics.sampling_tolerance; the interval of f includes it",
-            recommendation=f"a surface of about {times:.2g} times the area" if times > 1 else "",
+            consequence="numerics.sampling_tolerance sets this limit; the interval of f includes the error",
+            recommendation=f"give a map of about {times:.2g} times the area" if times > 1 else "",
         )

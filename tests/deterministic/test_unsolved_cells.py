@@ -38,7 +38,7 @@ def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch):
     assert abs(limited.coefficient / solved.coefficient - 1) < limited.uncertainty.numerical
     assert limited.uncertainty.numerical > 1.5 * solved.uncertainty.numerical
     assert "shorter cells of a piece of the surface are more than" in limited.uncertainty.text
-    assert "the most that are solved" not in solved.uncertainty.text
+    assert "the largest number that is solved" not in solved.uncertainty.text
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
     assert "a narrow patch" in violation.recommendation
     monkeypatch.setattr(shorter_cells, "_refined", fails)
@@ -71,10 +71,10 @@ def test_a_patch_ends_at_the_shortest_cells_that_are_not_too_many(monkeypatch, s
     assert limited.details["deterministic"].pressure.shape == shortest
     assert abs(limited.coefficient / solved.coefficient - 1) < limited.uncertainty.numerical
     assert limited.uncertainty.numerical > solved.uncertainty.numerical
-    assert "the most that are solved" in limited.uncertainty.text
+    assert "the largest number that is solved" in limited.uncertainty.text
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
     assert "a smaller patch (contact.shape)" in violation.recommendation
-    assert "the most that are solved" not in solved.uncertainty.text
+    assert "the largest number that is solved" not in solved.uncertainty.text
 
 
 def test_a_patch_keeps_its_shorter_cells_where_still_shorter_ones_do_not_converge(monkeypatch):

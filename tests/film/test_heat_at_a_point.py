@@ -107,4 +107,4 @@ def test_the_model_form_error_by_heat_is_stated_by_its_parts(model):
     assert inlet == pytest.approx(50 * (1 - hot.inlet_film_factor), rel=0.06)
     assert total == pytest.approx(within + inlet, rel=0.06)
     assert total == pytest.approx(100 * hot.uncertainty.largest_in_model.error, rel=0.02)
-    assert "half of the change of f" in note and "at most: as if f were inversely proportional" in note
+    assert "half of the change of f" in note and "an upper bound: f inversely proportional" in note

@@ -84,7 +84,7 @@ def test_info_refuses_no_newtonian_oil_between_asperities_that_friction_answers(
     rough = HEAVY.with_(surface={"sq": 1e-6}, numerics={"model": "paper"})
     assert math.isfinite(lubfric.friction(rough).coefficient)
     stated = describe_scene(rough).partition("  validity\n")[2]
-    assert "not valid" not in stated and "the result is refused only if it is above 0.2" in stated
+    assert "not valid" not in stated and "the result is refused only if the share is above 0.2" in stated
 
 
 def test_few_or_no_asperities_are_stated_only_above_a_lambda_ratio_of_3():
@@ -168,7 +168,7 @@ def test_info_looks_at_what_is_solved():
         scene = small.with_(numerics={"sampling": sampling})
         known = [entry.what for entry in lubfric.prepare(scene).violations]
         assert (
-            ("Few asperities" in describe_scene(scene))
+            ("The sample has few asperities" in describe_scene(scene))
             == stated
             == any("length of the sample" in what for what in known)
         )

@@ -725,7 +725,7 @@ def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give
     scene = PAPER.with_(bodies={"load": 200.0}, numerics={"model": "quick"})
     result = lubfric.friction(scene, 1e-4)
     (note,) = (entry for entry in result.validity if entry.assumption == Assumption.LUBRICANT_PASSES)
-    assert note.is_note and "the interval of f has 2 % for that" in note.consequence
+    assert note.is_note and "the interval of f includes an error of 2 % for this" in note.consequence
     monkeypatch.setattr(answer, "ERROR_BY_GAP", 0.0)
     without = lubfric.friction(scene, 1e-4)
     assert without.coefficient == result.coefficient

@@ -119,7 +119,7 @@ def test_windows_of_a_measured_map_are_its_sample(tmp_path):
     assert 3 <= points[0].decision.strips < points[1].decision.strips
     assert few.sampling > all_of_it.sampling > 0.003 and all_of_it.length > 2 * few.length
     assert few.area_needed == 1 < all_of_it.area_needed == pytest.approx((all_of_it.sampling / 0.003) ** 2)
-    assert "the map ends before the requested 0.3 %" in all_of_it.text
+    assert "the map is too small for the requested 0.3 %" in all_of_it.text
     low, high = few.interval
     assert low < lubfric.friction(PAPER.with_(surface={"acf": "gaussian", "seed": 8}), 0.01).coefficient < high
 
@@ -179,7 +179,7 @@ def test_one_patch_is_too_short_for_an_interval():
 @pytest.mark.parametrize("scene", [PATCH.with_(contact={"model": "summits"}), FLAT], ids=["summits", "flat"])
 def test_contacts_without_places_along_y_say_so(scene):
     known = lubfric.friction(scene, 0.02).uncertainty
-    assert "no places along y to compare" in known.text
+    assert "no cells along y to compare" in known.text
     assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
 
 

@@ -196,7 +196,7 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.03, interval=(0.9, 1.1))
     assert known.largest_part.startswith("largest part: sampling 5.6 %")  # Student's t of four degrees: 2.78
     by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
-    assert by_input.largest_part == "largest part: input 20 %; a measured lubricant.eyring_stress reduces it"
+    assert by_input.largest_part == "largest part: input 20 %; give a measured lubricant.eyring_stress to reduce it"
     part = ModelErrorPart(sides=(0.3, 0.2), cause="the boundary film", recommendation="bodies.boundary_film reduces it")
     by_model = replace(known, model=0.3, largest_in_model=part)
     assert by_model.largest_part == "largest part: model-form 30 % (the boundary film); bodies.boundary_film reduces it"
@@ -219,13 +219,13 @@ def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
     said = beside_larger_part(of_model, film).recommendation
     assert (
         said.startswith("shorter cells. More of the interval")
-        and "not given 53 %; a measured bodies.boundary_film reduces it" in said
+        and "not given 53 %; give a measured bodies.boundary_film to reduce it" in said
     )
 
 
 def test_the_numerical_part_says_what_narrows_it():
     known = Uncertainty(numerical=0.2, sampling=0.01, freedom=20.0, interval=(0.04, 0.06))
-    assert known.largest_part == "largest part: numerical 20 %; a smaller numerics.tolerance reduces it"
+    assert known.largest_part == "largest part: numerical 20 %; set a smaller numerics.tolerance to reduce it"
     assert replace(known, narrows_numerical="shorter cells narrow it").largest_part.endswith(
         "; shorter cells narrow it"
     )
@@ -240,7 +240,7 @@ def test_the_largest_part_of_any_kind_is_named_with_what_reduces_it():
     for name, part in PARTS.items():
         known = Uncertainty(**{"sampling": 0.0, "missing_input": "a.b", "freedom": 9.0, part.quantity: 0.4})
         assert known.largest_part.startswith(f"largest part: {name} ")
-        assert known.largest_part.endswith("reduces it")
+        assert known.largest_part.endswith("to reduce it")
         assert not part.sides or len(getattr(known, part.sides)) == 2
 
 

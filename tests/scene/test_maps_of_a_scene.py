@@ -307,7 +307,7 @@ def test_a_form_of_the_second_body_is_named_and_one_of_a_given_map_too(maps):
     (found,) = [
         v for v in lubfric.prepare(prepared.scene.with_(counterface=None), given).violations if "form" in v.what
     ]
-    assert found.recommendation == "take the form off the map: level('cylinder')"
+    assert found.recommendation == "remove the form from the map: level('cylinder')"
 
 
 @pytest.mark.parametrize("load, is_asked", [(0.1, True), (1e-5, False)])

@@ -33,9 +33,9 @@ def test_a_large_change_is_reported_without_powers_of_ten():
 @pytest.mark.parametrize(
     "low, high, words",
     [
-        (0.035, 0.062, "the lowest of measured oils changes f by +3.5 %, the highest by +6.2 %: both raise it."),
-        (-0.02, -0.062, "the lowest of measured oils changes f by -2 %, the highest by -6.2 %: both lower it."),
-        (-0.67, 0.1, "the lowest of measured oils changes f by -67 %, the highest by +10 %."),
+        (0.035, 0.062, "the lowest value of measured oils changes f by +3.5 %, the highest by +6.2 %; both raise it."),
+        (-0.02, -0.062, "the lowest value of measured oils changes f by -2 %, the highest by -6.2 %; both lower it."),
+        (-0.67, 0.1, "the lowest value of measured oils changes f by -67 %, the highest by +10 %."),
     ],
 )
 def test_both_ends_of_an_estimated_pressure_viscosity_coefficient_are_stated(low, high, words):

@@ -55,8 +55,8 @@ from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, patch_coarsening_to_look_at, sample_coarsening_of
 from .time_and_place import PLACE_BLOCK, TIME_BLOCK, least_blocks
 
-BY_PLACES = "the difference of the models from place to place"
-LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
+BY_PLACES = "the scatter of the difference between the models from strip to strip"
+LESS_BY_TOLERANCE = "set a smaller numerics.model_tolerance to reduce it"
 BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which published theories differ"
 
 # Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known
@@ -68,19 +68,19 @@ LONGEST_WORK = 3600.0
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
-    "cells; a larger numerics.max_work reduces it, where that ended the solve"
+    "cells; set a larger numerics.max_work to reduce it, if the work ended the solve"
 )
-SMALLER_PATCH = "a smaller patch (contact.shape)"
-PATCH_IN_PLACE = "a narrow patch in place of strips (numerics.sampling = 'patch')"
+SMALLER_PATCH = "give a smaller patch (contact.shape)"
+PATCH_IN_PLACE = "use a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
-    "shorter cells of {} are more than {:.3g}, the most that are solved: the numerical error is twice the estimate from longer "
-    "cells; {} reduces it"
+    "shorter cells of {} would be more than {:.3g}, the largest number that is solved: the numerical error is twice the estimate "
+    "from longer cells; {} to reduce it"
 )
-ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; between these it scatters"
+ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
 # Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
-FILM_OF_STRIPS = "of the film between asperity contacts, on the cells that f is solved on"
+FILM_OF_STRIPS = "of the film between asperity contacts, on the cells of the solve of f"
 # What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of the
 # asperity load.
 RUBS = {
@@ -91,10 +91,10 @@ BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g}
 BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
 BY_LIMIT = "the limiting stress of the oil, which is not given"
-LESS_BY_LIMIT = "lubricant.limiting_stress_coefficient reduces it"
+LESS_BY_LIMIT = "give lubricant.limiting_stress_coefficient to reduce it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
-LARGER_TOLERANCE = "a larger numerics.tolerance"
-SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
+LARGER_TOLERANCE = "set a larger numerics.tolerance"
+SMALLER_SOLVE_TOLERANCE = "set a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to
 # .006 the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at
@@ -343,10 +343,10 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
     if levels.has_too_many_cells:
         return f"{LARGER_TOLERANCE}, or {_fewer_cells(sample)}"
     if not sample.cells.is_native and not sample.refines_in_place:
-        return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
+        return f"set numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given_or_measured:
-        return f"{LARGER_TOLERANCE}, or {way_to_shorter_cells(prepared)}"
-    return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given', or {LARGER_TOLERANCE}"
+        return f"{LARGER_TOLERANCE}, or give {way_to_shorter_cells(prepared)}"
+    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
 
 def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
@@ -363,20 +363,20 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
         if work > LONGEST_WORK:
             return (
-                "a map of longer cells than this one has, with numerics.grid = 'given', which solves on the cells of the map (a strip "
-                "on the cells of this map would take too long),"
+                "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip on the cells "
+                "of this map would take too long),"
             )
         with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
-        return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
-    return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
+        return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost})"
+    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
 
 
 def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no tolerance does."""
     if has_moving_roughness(prepared.scene):
-        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} reduces it"
+        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
     narrower = _fewer_cells(prepared.sample) if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE
-    return f"{narrower} reduces it"
+    return f"{narrower} to reduce it"
 
 
 def _fewer_cells(sample: Sample) -> str:
@@ -419,7 +419,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
     (stated, target) = percent_beside(error.value, tolerance)
     both_sides = percent(half_width_of_error(error.value, error.freedom))
     of_target = f"is above the target of {target} (numerics.sampling_tolerance)"
-    return (f"sampling: its standard error, {stated} ({both_sides} at 95 %), {of_target}",)
+    return (f"sampling: the standard error, {stated} ({both_sides} at 95 %), {of_target}",)
 
 
 def _words_of_levels(levels: Levels) -> str:
@@ -463,7 +463,7 @@ def violations_by_correction(by_summits: float, of_sample: float) -> Iterator[Vi
             limit=100 * limit,
             unit="%",
             consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from those of "
-            "the infinite surface; the sampling error is that of the corrected f",
+            "the infinite surface; the sampling error is for the corrected f",
             recommendation="",
             is_note=True,
         )
@@ -492,14 +492,16 @@ def _violations(
             value=1e9 * film,
             limit=1e9 * BOUNDARY_FILM,
             unit="nm",
-            consequence="that is less than the boundary film, which is not given: where the film is thinner, it rubs with "
-            "f_b and counts as asperity load",
-            recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured; the interval of f has that of half and twice {1e9 * BOUNDARY_FILM:g} nm",
+            consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the boundary film is not "
+            f"given, and the interval of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
+            recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured",
         )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
-        consequence = "the shear stress of the film, which has no limit of its own, would exceed f_b p there; it is limited to f_b p"
-        recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
+        consequence = (
+            "the limiting stress of the oil is not given, so the shear stress of the film is limited to f_b p there"
+        )
+        recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if f_b p is meant), or eyring_stress'
         yield Violation(
             assumption=Assumption.FILM_BELOW_ITS_LIMIT,
             what="share of the load on a saturated film (strips of the deterministic model)",
@@ -513,7 +515,7 @@ def _violations(
     if share > MOST_GIVEN_OFF:
         consequence = (
             "almost no lubricant passes through the contact, and f changes by about 1 % with the assumed gap of 1 nm between "
-            f"touching cells; the interval of f has {100 * ERROR_BY_GAP:g} % for that"
+            f"touching cells; the interval of f includes an error of {100 * ERROR_BY_GAP:g} % for this"
         )
         yield Violation(
             assumption=Assumption.LUBRICANT_PASSES,
@@ -535,5 +537,5 @@ def _violations(
             limit=1.0,
             unit="",
             consequence=why,
-            recommendation="read f with its interval",
+            recommendation="use f with its interval",
         )

@@ -30,7 +30,7 @@ from .limits import limits_exceeded
 from .response import contact_length, point_numbers
 from .scatter import film_stress
 
-SMALLER_TOLERANCE = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
+SMALLER_TOLERANCE = "set a smaller numerics.tolerance or give a larger map to reduce the error"
 
 
 def answer_of(balanced: BalancedSample) -> ModelAnswer:
@@ -181,7 +181,7 @@ def _violations_by_finer_cells(prepared: Prepared, change: float) -> tuple[Viola
         return ()
     what = "change of f by cells half as long, estimated"
     recommendation = f"use {way_to_shorter_cells(prepared)}"
-    consequence = "the map is too coarse for its roughness; the interval of f does not include that"
+    consequence = "the cells of the map are too long for its roughness; the interval of f does not include this error"
     return (
         Violation(
             assumption=Assumption.FINE_MAP,

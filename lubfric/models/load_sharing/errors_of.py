@@ -34,12 +34,12 @@ from .scatter import Scatter
 # Relative change of the plastic part over that of the load or the area, at most about. Not measured: it enters
 # an error alone, where no asperity contacts are counted.
 PLASTIC = 3.0
-NO_CELLS = "sampling not known: this contact has no places along y to compare"
+NO_CELLS = "sampling not known: this contact has no cells along y to compare"
 
 # Errors of f towards 0 and away from it where the model has none. By definition.
 NO_ERROR = Sides(0.0, 0.0)
 BY_EQUATION = "the friction of Eq. (9)"
-GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
+GAP_NOT_FILLED = "the arriving film does not fill the gap, which Eq. (8) neglects; f may be lower"
 NOT_STUDIED = "the model-form error is not known for this contact"
 MODEL_ERROR_UNKNOWN = "the model-form error is not known and not in the interval: {}"
 TOO_LITTLE = "there was too little of it to estimate"
@@ -373,13 +373,13 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
     if error > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(
-            f"the map ends before the requested {percent(tolerance)}: that would take about {times:g} times its area"
+            f"the map is too small for the requested {percent(tolerance)}, which needs about {times:g} times its area"
         )
     elif error > tolerance:
         notes.append(f"more than the requested {percent(tolerance)}")
     if has_too_few_contacts(balanced.scatter.effective_contacts, error, tolerance):
         notes.append(
-            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW_CONTACTS:g}): the "
-            "interval is too narrow more often than it says"
+            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW_CONTACTS:g}), so "
+            "the interval may be too narrow"
         )
     return tuple(notes)

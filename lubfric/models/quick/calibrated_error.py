@@ -19,13 +19,15 @@ from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
 from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
 
-OUTSIDE = "the quick model is not calibrated for such contacts; its model-form error is increased, at most three times"
+OUTSIDE = (
+    "the quick model is not calibrated for such contacts, so its model-form error is increased, at most three times"
+)
 
 # The lambda ratio by which contacts are compared with those of the calibration.
 RATIO_IN_WORDS = "lambda ratio by closed forms"
 # What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
-WIDENED = "read f with its model-form error, which is larger for that"
+WIDENED = "use f with its model-form error, which includes this increase"
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width. A
 # choice: less reports more.

@@ -60,6 +60,9 @@ SPIKE = 1.05
 # What to give so that the film is deflected by the total load.
 DEFLECTION_OF_TOTAL_LOAD = "numerics.film_deflection = 'scaled'"
 
+# What to do where inertia or turbulence disturb the film.
+LESS_INERTIA = "reduce the speed or raise the viscosity"
+
 # Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured:
 # it decides where a point is refused, no number.
 ON_ENDS = 0.01
@@ -88,14 +91,14 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
     film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
-        why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
+        why = "the surfaces move in opposite directions; heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
         check = "the speeds of the surfaces: the ratio is 2 in simple sliding"
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
             check = "motion.entrainment_speed and motion.sliding_speed over the run"
         elif float(f"{ratio:.{DIGITS_OF_SLIP}g}") == ratio:  # no quotient of two speeds
             check += f", and a slip of {ratio:g} % ({ratio / 100:g}) goes into motion.slip_percent"
-        advice = f"take f for an estimate if the surfaces move so, as at the nose of a cam; else check {check}"
+        advice = f"use f only as an estimate if this motion is meant, as at the nose of a cam; otherwise check {check}"
         yield Violation(
             assumption=Assumption.ONE_DIRECTION,
             what=what,
@@ -113,9 +116,9 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
         inertia = reynolds * thickness / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * thickness))
         if reynolds > LAMINAR:
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
-            why = "the film is turbulent or near it"
+            why = "Reynolds' equation needs a laminar film, and this film is turbulent or nearly so"
             what = "Reynolds number"
-            recommendation = "a laminar film needs less speed or more viscosity"
+            recommendation = LESS_INERTIA
             yield Violation(
                 assumption=Assumption.LAMINAR_FILM,
                 what=what,
@@ -127,7 +130,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
                 severe=reynolds > TURBULENT,
             )
         elif inertia > INERTIA:
-            why = "Reynolds' equation neglects inertia"
+            why = "Reynolds' equation neglects inertia, so film and f have an unknown error"
             what = "inertia over viscous forces in the film"
             yield Violation(
                 assumption=Assumption.NO_INERTIA,
@@ -136,7 +139,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
                 limit=INERTIA,
                 unit="",
                 consequence=why,
-                recommendation="less speed or more viscosity",
+                recommendation=LESS_INERTIA,
             )
 
 
@@ -173,18 +176,18 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "of the smoot
     severe = peak > NO_LIQUID
     if severe:
         limit = NO_LIQUID
-        consequence = "no oil is a liquid there"
+        consequence = "no oil is liquid at this pressure, so f has no meaning"
         recommendation = "check bodies.load"
     if not peak > limit:
         return
     if is_local:
-        consequence += f"; it is a local peak {place}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
+        consequence += f"; this is a local peak {place}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
     if is_limited and not severe:
         consequence += "; the limiting stress bounds the friction of the film"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         consequence += "; a constant density causes such a spike"
         more = f"; {recommendation}" if recommendation else ""
-        recommendation = f"give lubricant.density_law = 'dowson-higginson', which lowers it{more}"
+        recommendation = f"give lubricant.density_law = 'dowson-higginson', which lowers the peak{more}"
     yield Violation(
         assumption=Assumption.PRESSURE_OF_VISCOSITY_LAW,
         what="highest local film pressure" if is_local else "peak film pressure",
@@ -203,7 +206,7 @@ def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violatio
     radius = scene.bodies.radius
     if not thickness > THICK_FILM * radius:
         return
-    why = "the film is not thin compared with the cylinder"
+    why = "Reynolds' equation needs a film that is thin compared with the cylinder"
     yield Violation(
         assumption=Assumption.THIN_FILM,
         what="film over radius",
@@ -227,7 +230,7 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
     if not oil.floods and flow <= (1 - tolerance) * flooded:
         keys = ("inlet_length", "inlet_film")
         given = " and ".join(f"lubricant.{key}" for key in keys if getattr(oil, key) is not None)
-        consequence = f"the inlet is starved by {given}, on which f depends"
+        consequence = f"{given} starves the inlet, so f depends on this value"
         what = "film thickness over that of a fully flooded inlet (Moes)"
         advice = f"keep {given} if the contact is starved; omit it for a flooded inlet"
         yield Violation(
@@ -241,7 +244,7 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
         )
     elif lost > tolerance * friction_force:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
-        why = "f depends on where the lubricant begins"
+        why = "f depends on where the lubricant begins, so on inlet_length"
         yield Violation(
             assumption=Assumption.LONG_INLET,
             what=what,
@@ -269,9 +272,7 @@ def violations_by_deflection(
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
-    why = (
-        "the film, which its own pressure alone deflects, carries too much of the load: at low speeds f stays below f_b"
-    )
+    why = "only its own pressure deflects the film, so the film carries too much load, and at low speeds f stays below f_b"
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
     yield Violation(
         assumption=Assumption.FILM_UNDER_TOTAL_LOAD,
@@ -288,7 +289,7 @@ def violations_by_ends(scene: Scene, share: float, surface: Surface) -> Iterator
     """Yield the violations by the ``share`` of the contact's load on the edge columns of the patch ``surface`` of
     ``scene``."""
     if share > ON_ENDS:
-        why = f"the ends of the patch, {worded(surface.size[0], 'm')} apart, cut the contact off"
+        why = f"the contact is longer than the patch ({worded(surface.size[0], 'm')}), which cuts off its ends"
         what = "share of the contact load on the edge columns of the patch"
         yield Violation(
             assumption=Assumption.CONTACT_ON_PATCH,
@@ -297,7 +298,7 @@ def violations_by_ends(scene: Scene, share: float, surface: Surface) -> Iterator
             limit=100 * ON_ENDS,
             unit="%",
             consequence=why,
-            recommendation=way_to_longer_patch(scene, surface),
+            recommendation=f"give {way_to_longer_patch(scene, surface)}",
             severe=True,
         )
 
@@ -309,7 +310,7 @@ def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Ite
         return
     count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
     if count:
-        why = "a ridge without ends counts as one asperity, blunter on a longer map; f depends on the length of the map"
+        why = "a ridge that crosses the whole map counts as one asperity, so f depends on the length of the map"
         what = "number of asperities that extend across the whole map"
         yield Violation(
             assumption=Assumption.ASPERITIES_END,
@@ -318,7 +319,7 @@ def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Ite
             limit=0,
             unit="",
             consequence=why,
-            recommendation="contact.model = 'half-space', or 'summits'",
+            recommendation="give contact.model = 'half-space' or 'summits'",
         )
 
 
@@ -351,14 +352,14 @@ def violations_by_shear(
             value=share,
             limit=REFUSED_SHARE if severe else tolerance,
             unit="",
-            consequence=f"no oil carries more; {law} reaches {shear.stress_ratio:.2g} times that stress, and gives the film a "
-            f"friction coefficient of {of_film:.2g}",
+            consequence=f"no oil carries such stresses; {law} reaches {shear.stress_ratio:.2g} times this limit, and gives the film "
+            f"a friction coefficient of {of_film:.2g}",
             recommendation=recommendation,
             severe=severe,
         )
     elif of_film > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
-        why = "more than any lubricant gives"
+        why = "no lubricant has such a high friction coefficient"
         yield Violation(
             assumption=Assumption.FRICTION_OF_FILMS,
             what=what,
@@ -389,7 +390,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
                 unit="",
                 consequence=f"the film is between {least:.2g} and {most:.2g} times as thick as the isothermal one; "
                 "neither factor was derived for such sliding",
-                recommendation="measure the film; numerics.heat = 'off' gives the isothermal bound",
+                recommendation="measure the film; set numerics.heat = 'off' to see f of the isothermal film",
             )
     if heat.is_slow and heat.change > tolerance:
         yield Violation(
@@ -398,10 +399,10 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             value=heat.peclet,
             limit=FAST_PECLET_NUMBER,
             unit="",
-            consequence="the heat source moves slowly: the flash temperature "
-            f"used is too high, and f too low by at most {100 * heat.change:.2g} %; points where that is below numerics.tolerance "
-            f"({100 * tolerance:g} %) have no such warning, however slow they are",
-            recommendation="numerics.heat = 'off' gives the other bound",
+            consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too high, and f is "
+            f"too low by at most {100 * heat.change:.2g} %; where that is below numerics.tolerance ({100 * tolerance:g} %) there is "
+            "no warning",
+            recommendation="set numerics.heat = 'off' to see the other bound of f",
         )
 
 
@@ -416,10 +417,11 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
             unit="%",
-            consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
-            f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
-            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
-            "'off' neglects heat without this warning",
+            consequence="heat is not included, because the scene does not state how the viscosity falls with the temperature; the "
+            f"number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose viscosity falls by "
+            f"{100 * coefficient:.2g} % per K",
+            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); set numerics.heat = "
+            "'off' to neglect heat without this warning",
         )
 
 
@@ -429,9 +431,9 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
     if error is not None and error > tolerance:
         is_large = error > LARGE_NUMERICAL_ERROR
         if is_large:
-            why = "this is so much that f is an order of magnitude only"
+            why = "the error is so large that f is only an order of magnitude"
         else:
-            why = "this is more than the limit that numerics.tolerance sets; the interval of f includes it where it is known"
+            why = "numerics.tolerance sets this limit; the interval of f, where it is known, includes the error"
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,

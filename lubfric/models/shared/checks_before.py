@@ -55,7 +55,7 @@ REFUSED_SLOPE = 1.5
 
 # Cells in a correlation length below which a map is noise: independent cells have 0.63. A choice, a little above.
 NOISE = 0.8
-FILTERED = "lines in the right order, or surface.s_filter"
+FILTERED = "check the order of its lines, or give surface.s_filter"
 
 # Correlation lengths that a generated patch should be wide. Not measured: a convention.
 LEAST_PATCH_LENGTHS = 10
@@ -107,10 +107,10 @@ def why_too_few_blocks(
     (along, across) = blocks
     return (
         f"sampling not known: the surface that passes the contact has {counted(along * across, 'nearly independent blocks')} ({along} along the "
-        f"motion x {across} along y), and an interval takes {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
-        f"({worded(scene.bodies.half_width, 'm')} at this load; a block takes {size_of_block[0]:g}) and {size[1]:.3g} correlation "
-        f"lengths wide along y (a block takes {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
-        "or one that is longer along the motion"
+        f"motion x {across} along y), and an interval needs {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
+        f"({worded(scene.bodies.half_width, 'm')} at this load; a block needs {size_of_block[0]:g}) and {size[1]:.3g} correlation "
+        f"lengths wide along y (a block needs {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
+        "or a map that is longer along the motion"
     )
 
 
@@ -170,7 +170,7 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
     length = surface.size[0]
     if surface.sq == 0 or surface.periodic_axes[0] or length >= needed:
         return
-    refuses = f"load sharing refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
+    refuses = f"the load-sharing model refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns"
     cut = ""
     if is_measured(scene) and scene.contact.shape is None and whole.size[0] > length * UNCUT_LENGTH:
         cut = f"the map, {worded(whole.size[0], 'm')} long, is cut to a whole number of the longer cells of this contact; "
@@ -180,10 +180,9 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
         value=1e6 * length,
         limit=1e6 * needed,
         unit="µm",
-        consequence=f"{cut}the contact of the rough surfaces is longer, and the ends of the patch may cut it off; "
-        f"{refuses}; the quick and the deterministic model, one of which answers by default then, continue the patch by its mirror "
-        "image",
-        recommendation=way_to_longer_patch(scene, surface),
+        consequence=f"{cut}the contact of the rough surfaces is longer than the patch, which may cut off its ends; {refuses}; the quick "
+        "and the deterministic model continue the patch by its mirror image, and by default one of them then gives the answer",
+        recommendation=f"give {way_to_longer_patch(scene, surface)}",
     )
 
 
@@ -206,7 +205,7 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: 
             continue
         name = f" ({source})" if source else ""
         sq = [f"{1e9 * left[key]:.4g} nm" for key in ("", form)]
-        why = f"Sq is {sq[0]} with it, {sq[1]} without it; film, contact and f are then those of the form, not of the roughness"
+        why = f"Sq is {sq[0]} with this form and {sq[1]} without it, so film, contact and f are those of the form, not of the roughness"
         file_advice = f"give {section}.form = {form!r}"
         yield Violation(
             assumption=Assumption.MAP_WITHOUT_FORM,
@@ -215,7 +214,7 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: 
             limit=MOST_OF_FORM,
             unit="%",
             consequence=why,
-            recommendation=f"take the form off the map: level({form!r})" if has_given_map else file_advice,
+            recommendation=f"remove the form from the map: level({form!r})" if has_given_map else file_advice,
         )
 
 
@@ -229,9 +228,9 @@ def violations_by_strips(deviation: float, explained: float) -> Iterator[Violati
             value=100 * abs(deviation),
             limit=100 * max(explained, LEAST_STRIP_DEVIATION),
             unit="%",
-            consequence=f"the strips that are solved are {'rougher' if deviation > 0 else 'smoother'} than the map by more than "
-            "their size explains: it has a form, or is not alike everywhere",
-            recommendation="take the form off (form), or cut the map to the part that is in contact",
+            consequence=f"the solved strips are {'rougher' if deviation > 0 else 'smoother'} than the map by more than their size "
+            "explains: the map has a form, or its roughness differs from place to place",
+            recommendation="remove the form (key form), or crop the map to the part that is in contact",
         )
 
 
@@ -279,8 +278,8 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
     """Yield the violations by a load beyond the half-space and the elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE_STRIP:
-        recommendation = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
-        why = "the contact is about as wide as the body, which is then no half-space"
+        recommendation = "check bodies.load, e_prime and radius; reduce the load, or choose a stiffer body"
+        why = "the half-space model needs a contact that is narrow compared with the body"
         what = "contact half-width over radius"
         yield Violation(
             assumption=Assumption.HALF_SPACE,
@@ -293,7 +292,7 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
             severe=wide > WIDEST_STRIP,
         )
     if bodies.width < 2 * bodies.half_width:
-        why = "the contact is wider than long: no line contact"
+        why = "the contact is wider than it is long, so it is no line contact"
         what = "line length over contact width"
         yield Violation(
             assumption=Assumption.LINE_CONTACT,
@@ -341,7 +340,7 @@ def violations_by_map(
         )
     least = LEAST_LENGTHS_FOR_INTERVAL if longer else LEAST_PATCH_LENGTHS
     if lengths < least:
-        why = "few asperities: another patch of the same surface would give another f, and f may have no 95 % interval"
+        why = "the sample has few asperities: another patch of the same surface would give another f, and f may have no 95 % interval"
         yield Violation(
             assumption=Assumption.LONG_SAMPLE,
             what="length of the sample along the line over the correlation length of the map",
@@ -349,19 +348,19 @@ def violations_by_map(
             limit=least,
             unit="",
             consequence=why,
-            recommendation=longer or "a larger map",
+            recommendation=f"give {longer or 'a larger map'}",
         )
     for axis, count in zip("xy", cells):
         if count < NOISE:
             what = f"cells in a correlation length along {axis}"
-            recommendation = f"a shorter step along {axis}, {FILTERED}"
+            recommendation = f"give a map with a shorter step along {axis}, {FILTERED}"
             yield Violation(
                 assumption=Assumption.CORRELATED_HEIGHTS,
                 what=what,
                 value=count,
                 limit=NOISE,
                 unit="",
-                consequence="neighbouring heights are uncorrelated, like noise",
+                consequence="neighbouring heights are uncorrelated, as in noise, so the contact has no meaning",
                 recommendation=recommendation,
                 severe=True,
             )
@@ -372,8 +371,8 @@ SEPARATING = 3.0
 
 # What is added where the film may carry a part of the load alone.
 IF_ALL = (
-    "this is of a film that carries the whole load: where asperities carry a part of it, the share is smaller, and the "
-    f"result is refused only if it is above {REFUSED_SHARE:g}"
+    "this estimate is for a film that carries the total load; where asperities carry a part of it, the share is smaller, and the "
+    f"result is refused only if the share is above {REFUSED_SHARE:g}"
 )
 
 # Limits that will be exceeded, each with the speed [m/s] at which it is; None: at all speeds.

@@ -368,9 +368,9 @@ def heat_error_in_words(heat: Heat, by_inlet: float, tolerance: float, *, is_at_
     within, inlet = _parts_of_error(heat, by_inlet)
     if within + inlet <= tolerance or not (within and inlet):
         return ""
-    half = "half of" if inlet <= PART_IN_ERROR * abs(by_inlet) else "as much as two published factors differ, of"
-    film = f"the change of f by a film that the heat of the inlet makes {percent(1 - heat.film_factor)} thinner"
-    largest = " (at most: as if f were inversely proportional to it)" if is_at_most else ""
+    half = "half of" if inlet <= PART_IN_ERROR * abs(by_inlet) else "the difference of two published factors in"
+    film = f"the change of f because the heat of the inlet makes the film {percent(1 - heat.film_factor)} thinner"
+    largest = " (an upper bound: f inversely proportional to the film)" if is_at_most else ""
     return (
         f"the model-form error by heat is {percent(within + inlet)}: {percent(within)}, half of the change of f by the temperatures "
         f"in the contact, and {percent(inlet)}, {half} {film}{largest}"

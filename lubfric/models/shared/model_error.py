@@ -10,12 +10,12 @@ from .wording import is_near_zero, percent
 
 MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
-BY_HEAT = "heat, of whose effect half is counted as error"
-REDUCED_BY_DETERMINISTIC = "numerics.model = 'deterministic' reduces it"
-REDUCED_BY_TOLERANCE = "a smaller numerics.tolerance reduces it"
+BY_HEAT = "heat (half of its effect counts as error)"
+REDUCED_BY_DETERMINISTIC = "set numerics.model = 'deterministic' to reduce it"
+REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
 LARGEST_PART = "its largest part is {}"
 IN_INTERVAL = "the interval of f includes it"
-READ_INTERVAL = "read f with its interval"
+READ_INTERVAL = "use f with its interval"
 OTHER_PARTS = "{}; without that part the model-form error is {}"
 
 

@@ -32,7 +32,7 @@ def limit_in_words(bounds: tuple[float, float]) -> str:
         return ""
     low, high = LIMIT_RANGE
     return (
-        f"the film between the asperities is at its limit, f_b p, and the limiting stress of the oil is not known: with "
-        f"{low:g} to {high:g} p f is {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} %; give "
+        f"the shear stress of the film between the asperities is limited to f_b p, because the limiting stress of the oil is not "
+        f"given: a limit of {low:g} p to {high:g} p changes f by {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} %; give "
         'lubricant.limiting_stress_coefficient, or "f_b" if f_b p is meant'
     )

@@ -65,7 +65,7 @@ LEAST_ASPERITY_PART = 0.1
 ENDS_OF_ALPHA = ("lowest", "highest")
 
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
-GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this"
+GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this change"
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
@@ -110,9 +110,9 @@ def alpha_in_words(effects: Sequence[UnmodelledEffect], of_f: str = "f") -> str:
         return ""
     (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
     senses = {math.copysign(1.0, change) for change in changes.values()}
-    both = f": both {'raise' if max(senses) > 0 else 'lower'} it" if len(changes) == 2 and len(senses) == 1 else ""
+    both = f"; both {'raise' if max(senses) > 0 else 'lower'} it" if len(changes) == 2 and len(senses) == 1 else ""
     return (
-        "The pressure-viscosity coefficient is an estimate, and the interval has no error of it: by closed forms the lowest of "
+        "The pressure-viscosity coefficient is an estimate, whose error is not in the interval: by closed forms, the lowest value of "
         f"measured oils changes {of_f} by {low}, the highest by {high}{both}."
     )
 
@@ -124,7 +124,7 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
         return ""
     (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
     return (
-        "the interval is without the range of the pressure-viscosity coefficient, which is estimated (lowest of measured oils: f "
+        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (lowest of measured oils: f "
         f"{low}, highest: {high})"
     )
 
@@ -201,8 +201,8 @@ def _all_effects(
         (
             "the edges of the line contact (edge pressure, misalignment)",
             ends,
-            "the change is the part of the line within half a contact width of its ends; a three-dimensional contact model "
-            "includes it",
+            "the number is the part of the line within half a contact width of its ends; use a three-dimensional contact model if "
+            "the edges matter",
         )
     )
     return effects
@@ -230,7 +230,7 @@ def _of_film(
 
     effects: list[UnmodelledEffect] = []
     if lubricant.floods:
-        words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
+        words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if it does not, give lubricant.inlet_length"
         size = (
             math.nan if is_narrow and is_of_film else change(scene, sq, STARVED_EXAMPLE)
         )  # the rolling part may fall by more
@@ -253,14 +253,18 @@ def _of_film(
         )
         if has_moving_roughness(scene) and not includes_motion and line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq:
             effects.append(
-                ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
+                (
+                    "motion of the roughness through the contact",
+                    math.nan,
+                    "set numerics.model = 'deterministic' to model it",
+                )
             )
     if scene.bodies.e_prime < SOFT_E_PRIME:
         words = (
-            f"a cover counts as thick from {1e3 * DEEP * line.half_width:.2g} mm on; if it is thinner, give e_prime so that "
-            "the contact is as wide as measured"
+            f"the body is modelled as solid; if it is a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, give e_prime such "
+            "that the contact is as wide as measured"
         )
-        effects.append(("a thin cover, and its damping", math.nan, words))
+        effects.append(("a thin soft cover, and its damping", math.nan, words))
     return effects
 
 
