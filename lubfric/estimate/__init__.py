@@ -26,6 +26,7 @@ from .uncertainty_of_f import uncertainty_of
 from .work_of_point import (
     NOT_MEASURED,
     PointWorkEstimate,
+    WorkOfPoints,
     estimated_work_of_point,
     expected_violations,
     seconds_of_points,

@@ -52,17 +52,41 @@ class PointWorkEstimate:
     longest_strip_seconds: float = 0.0
 
 
+class WorkOfPoints:
+    """Estimates of the points of ``scene`` on ``sample``, each made once; ``surface``: its `Sample.stated_map`."""
+
+    def __init__(self, scene: Scene, sample: Sample, surface: Surface):
+        self.scene = scene
+        self.sample = sample
+        self.surface = surface
+        self._of_models: dict[float, list[WorkEstimate]] = {}
+
+    def at(self, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED) -> PointWorkEstimate:
+        """Return what a point at ``speed`` [m/s] will take; ``measured``: by the name of a model what its first steps say of
+        the time of its strips."""
+        if speed not in self._of_models:
+            expected: list[WorkEstimate] = []
+            for model in models_up_to(AUTO):
+                before = expected[-1] if expected else None
+                expected.append(model.estimate_work(self.scene, self.sample, self.surface, speed, before))
+            self._of_models[speed] = expected
+        estimates = [
+            expected.as_measured(measured[model.name]) if model.name in measured else expected
+            for model, expected in zip(models_up_to(AUTO), self._of_models[speed])
+        ]
+        return _estimate_of_point(self.scene, self.sample, speed, estimates)
+
+
 def estimated_work_of_point(
     scene: Scene, sample: Sample, surface: Surface, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED
 ) -> PointWorkEstimate:
-    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: its `Sample.stated_map`; ``measured``:
-    by the name of a model what its first steps say of the time of its strips."""
+    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; other arguments as of `WorkOfPoints`."""
+    return WorkOfPoints(scene, sample, surface).at(speed, measured)
+
+
+def _estimate_of_point(scene: Scene, sample: Sample, speed: float, estimates: list[WorkEstimate]) -> PointWorkEstimate:
+    """Return what a point at ``speed`` [m/s] will take, by the ``estimates`` of all models, the cheapest first."""
     models = models_up_to(AUTO)
-    estimates: list[WorkEstimate] = []
-    for model in models:
-        expected = model.estimate_work(scene, sample, surface, speed, estimates[-1] if estimates else None)
-        is_measured = model.name in measured
-        estimates.append(expected.as_measured(measured[model.name]) if is_measured else expected)
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
     # AUTO tries one after the other until one is good enough
@@ -93,17 +117,21 @@ def estimated_work_of_point(
     )
 
 
-def expected_violations(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> ExpectedViolations:
+def expected_violations(
+    scene: Scene, sample: Sample, surface: Surface, speeds: list[float], work: WorkOfPoints | None = None
+) -> ExpectedViolations:
     """Return the limits that will be exceeded at ``speeds`` [m/s] (`Model.expected_violations`).
 
     They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those that the
-    model that is expected to answer has in addition. ``sample`` and ``surface``: as of `estimated_work_of_point`.
+    model that is expected to answer has in addition. ``sample`` and ``surface``: as of `estimated_work_of_point`; ``work``: the
+    estimates that are known.
     """
     first = models_that_may_answer(scene.numerics.model)[0]
     expected = first.expected_violations(scene, speeds)
+    points = work or WorkOfPoints(scene, sample, surface)
     speeds_of: dict[str, tuple[Model, list[float]]] = {}
     for speed in speeds:
-        model = estimated_work_of_point(scene, sample, surface, speed).model
+        model = points.at(speed).model
         speeds_of.setdefault(model.name, (model, []))[1].append(speed)
     known = {violation.assumption for _, violation in expected}
     more: list[tuple[float | None, Violation]] = []

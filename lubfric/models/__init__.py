@@ -11,7 +11,7 @@ from .contract import AUTO, Model, SampleSolution
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
 from .model_answer import ContactFields, ModelAnswer, ModelDetails
-from .prepare import prepare, prepare_on_maps, prepared_with, with_boundary_friction_at
+from .prepare import prepare, prepare_on_maps, prepare_on_sample, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
 from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to
 from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, MeasuredTime, SharedWork, WorkEstimate

@@ -85,6 +85,13 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
         return _on_sample(scene, sample_of(scene, read=read), has_given_map=False, has_given_contact=False)
 
 
+def prepare_on_sample(scene: Scene, sample: Sample) -> Prepared:
+    """Return ``scene`` made ready on its ``sample``, which `lubfric.samples.sample_of` made of its own maps and which is not made
+    again."""
+    check_by_model(scene, has_one_map_for_all_bodies=False)
+    return _on_sample(scene, sample, has_given_map=False, has_given_contact=False)
+
+
 def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_contact: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.stated_map()

@@ -11,6 +11,7 @@ from ..estimate import (
     NOT_MEASURED,
     FrictionResult,
     PointWorkEstimate,
+    WorkOfPoints,
     estimated_work_of_point,
     expected_violations,
     seconds_of_points,
@@ -23,7 +24,7 @@ from ..models import (
     MeasuredTime,
     model_named,
     models_up_to,
-    prepare,
+    prepare_on_sample,
 )
 from ..models.shared import (
     Assumption,
@@ -160,8 +161,9 @@ def described_scene(
         sample = sample_of(scene)
         surface = sample.stated_map()
         check_map(scene, surface, sample.maps_before_extension[0])
-    measured = _measured_times(scene, sample, surface, speeds) if measures else {}
-    estimate = estimate_scene(scene, sample, surface, speeds, measured=measured)
+    work = WorkOfPoints(scene, sample, surface)
+    measured = _measured_times(work, speeds) if measures else {}
+    estimate = estimate_scene(scene, sample, surface, speeds, measured=measured, work=work)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
@@ -194,10 +196,12 @@ def estimate_scene(
     ratios: Sequence[float] = (),
     *,
     measured: Mapping[str, MeasuredTime] | None = None,
+    work: WorkOfPoints | None = None,
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
     speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measured``: by the name of
-    a model, what its first steps say of its time."""
+    a model, what its first steps say of its time; ``work``: the estimates of its points that are known."""
+    work = work or WorkOfPoints(scene, sample, surface)
     scene_speed = scene.motion.entrainment_speed
     speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
     changing = []
@@ -206,10 +210,10 @@ def estimate_scene(
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         scene_speed = max(speeds)
-    model, seconds = _model(scene, sample, surface, speeds, ratios, measured or {})
+    model, seconds = _model(work, speeds, ratios, measured or {})
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved:
-        beside += estimated_work_of_point(scene, sample, surface, scene_speed).fine_fields_seconds
+        beside += work.at(scene_speed).fine_fields_seconds
     within = WITHIN_WORDS
     for time in (measured or {}).values():
         within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
@@ -229,7 +233,7 @@ def estimate_scene(
             for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
         ),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
-        *_expected_of_models(scene, sample, surface, sorted(set(speeds))),
+        *_expected_of_models(work, sorted(set(speeds))),
     ]
     if scene.transient is not None:
         fastest = _fastest_moment(scene)
@@ -269,7 +273,7 @@ def estimate_scene(
         cost=cost,
         seconds=seconds,
         command_seconds=seconds + beside,
-        table=_speed_table(scene, sample, surface, speeds, measured or {}),
+        table=_speed_table(work, speeds, measured or {}),
         refusals=refusals,
         severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
@@ -306,32 +310,27 @@ def belongs_to_curve(speed: float, speeds: Iterable[float]) -> bool:
     return speed != 0 and all(other * speed >= 0 for other in speeds)
 
 
-def _measured_times(
-    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str
-) -> dict[str, MeasuredTime]:
+def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, MeasuredTime]:
     """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its time; {}: no
     strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
+    scene = work.scene
     if scene.transient is not None:
         return {}
-    moving = sorted({abs(u) for u in _speeds_of(scene, surface, speeds) if u != 0})
-    points = [
-        estimated_work_of_point(scene, sample, surface, speed) for speed in moving[:: max(1, len(moving) // SOME)]
-    ]
+    moving = sorted({abs(u) for u in _speeds_of(scene, work.surface, speeds) if u != 0})
+    points = [work.at(speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     slow = [point for point in points if point.model.has_slow_strips and point.slow_strip_seconds > MEASURED_FROM]
     if not slow:
         return {}
     longest = max(slow, key=lambda point: point.seconds)
-    measured = longest.model.measure_time(prepare(scene), longest.speed)
+    measured = longest.model.measure_time(prepare_on_sample(scene, work.sample), longest.speed)
     return {} if measured is None else {longest.model.name: measured}
 
 
-def _expected_of_models(
-    scene: Scene, sample: Sample, surface: Surface, speeds: list[float]
-) -> tuple[tuple[float | None, Violation], ...]:
+def _expected_of_models(work: WorkOfPoints, speeds: list[float]) -> tuple[tuple[float | None, Violation], ...]:
     """Return the limits of the models that will be exceeded at ``speeds`` [m/s], each with its speed."""
-    if scene.transient is not None:
-        return run_model_of(scene).model.expected_violations(scene, speeds)
-    return expected_violations(scene, sample, surface, speeds)
+    if work.scene.transient is not None:
+        return run_model_of(work.scene).model.expected_violations(work.scene, speeds)
+    return expected_violations(work.scene, work.sample, work.surface, speeds, work)
 
 
 def _fastest_moment(scene: Scene) -> Scene:
@@ -357,15 +356,14 @@ def _plan(scene: Scene, sample: Sample, surface: Surface) -> str:
 
 
 def _model(
-    scene: Scene,
-    sample: Sample,
-    surface: Surface,
+    work: WorkOfPoints,
     speeds: list[float],
     ratios: Sequence[float],
     measured: Mapping[str, MeasuredTime],
 ) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
-    of them (`lubfric.estimate.friction`; 0: not known here). ``measured``: as of `estimated_work_of_point`."""
+    of them (`lubfric.estimate.friction`; 0: not known here). ``measured``: as of `WorkOfPoints.at`."""
+    scene = work.scene
     name = scene.numerics.model
     if scene.transient is not None:
         run = run_model_of(scene)
@@ -374,10 +372,10 @@ def _model(
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
-    points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
+    forecasts = [work.at(speed, measured) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
-        points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    forecasts = [estimated_work_of_point(at, sample, surface, speed, measured) for at, speed in points]
+        scenes = [scene.with_(motion={"slide_roll_ratio": ratio}) for ratio in ratios]
+        forecasts = [estimated_work_of_point(at, work.sample, work.surface, speeds[0], measured) for at in scenes]
     strip = max((one.slow_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
@@ -448,15 +446,14 @@ def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[s
 
 
 def _speed_table(
-    scene: Scene,
-    sample: Sample,
-    surface: Surface,
-    speeds: list[float],
-    measured: Mapping[str, MeasuredTime] = NOT_MEASURED,
+    work: WorkOfPoints, speeds: list[float], measured: Mapping[str, MeasuredTime] = NOT_MEASURED
 ) -> list[tuple[str, ...]]:
     """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
     the summits touch, and what the sample costs; of a run in time `_moment_table`. ``measured``: as of
-    `estimated_work_of_point`."""
+    `WorkOfPoints.at`."""
+    scene = work.scene
+    sample = work.sample
+    surface = work.surface
     if scene.transient is not None:
         return _moment_table(scene, sample, surface)
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
@@ -464,7 +461,7 @@ def _speed_table(
     if sample.is_resolved:
         table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
-        one = estimated_work_of_point(scene, sample, surface, speed, measured)
+        one = work.at(speed, measured)
         film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:
             film = _film_in_words(scene, surface, speed, one.asperities)

@@ -1,13 +1,14 @@
 """The time that `lubfric info` measures on the first steps of a strip of moving roughness."""
 
 import time
+from importlib import import_module
 
 import pytest
 
 import lubfric
 from lubfric.estimate import estimated_work_of_point
-from lubfric.models import MeasuredTime
-from lubfric.output import main
+from lubfric.models import MeasuredTime, models_up_to
+from lubfric.output import described_scene, main
 
 NEEDLE = """
 name = "needle"
@@ -79,3 +80,28 @@ def test_a_rolling_contact_has_cells_enough(needle):
     assert along == pytest.approx([4e-6, 8e-6])
     fine = rolling.with_(contact={"spacing": [1e-6, 2e-6], "shape": [256, 64]})
     assert lubfric.prepare(fine).sample.cells.spacing[0] == pytest.approx(4e-6)
+
+
+def test_info_makes_the_surface_and_the_estimate_of_each_speed_once(needle, monkeypatch):
+    """Also where it measures a strip, for which the scene is made ready."""
+    scene = lubfric.load_scene(needle).with_(motion={"speeds": (0.05, 0.5, 2.0)})
+    made = []
+    estimated = []
+    measured = []
+    for module in (import_module("lubfric.models.prepare"), import_module("lubfric.output.describe")):
+        sample_of = module.sample_of
+        monkeypatch.setattr(
+            module, "sample_of", lambda *given, of=sample_of, **named: made.append(1) or of(*given, **named)
+        )
+    (slow,) = [type(model) for model in models_up_to("auto") if model.has_slow_strips]
+    estimate_work = slow.estimate_work
+
+    def counted(self, scene, sample, surface, speed, cheaper):
+        estimated.append(speed)
+        return estimate_work(self, scene, sample, surface, speed, cheaper)
+
+    monkeypatch.setattr(slow, "estimate_work", counted)
+    monkeypatch.setattr(slow, "measure_time", lambda self, prepared, speed: measured.append(prepared.scene))
+    described_scene(scene, measures=True)
+    assert made == [1] and measured == [scene]
+    assert sorted(estimated) == [0.05, 0.5, 2.0]
