@@ -1,5 +1,5 @@
 """The progress of a long command: a line on stderr that is overwritten every second, with the time left. It appears on a
-terminal alone; files and pipes get the finished lines of the command and nothing else."""
+terminal alone; files and pipes get the finished lines of the command, and one on the time left where none came for long."""
 
 from __future__ import annotations
 
@@ -13,9 +13,14 @@ from typing import Any
 
 from .._base.processes import begin_beside
 from ..studies import in_words
+from .time_left import TimeLeft
 
 REFRESH = 1.0  # s between two drawings of the line; a choice: less flickers
+SILENCE = 30.0  # s without a line from which on a file or a pipe gets one with the time left; a choice: less fills logs
 CLEAR_LINE = "\r\033[K"  # to the begin of the line, and nothing on it
+
+# A bar of tqdm without its own time left, which is that of whole points.
+BAR_WITH_TIME_LEFT = "{l_bar}{bar}| {n_fmt}/{total_fmt} [{elapsed}{postfix}]"
 
 _active: ProgressLine | None = None
 
@@ -23,11 +28,13 @@ _active: ProgressLine | None = None
 class ProgressLine:
     """Use as ``with ProgressLine("points") as progress: progress.update(done, total)``.
 
-    The line is a bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
+    ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
     """
 
-    def __init__(self, unit: str):
+    def __init__(self, unit: str, time_left: TimeLeft | None = None):
         self.unit = unit
+        self.time_left = time_left
+        self._said = time.monotonic()
         self.done = 0.0
         self.total = 0.0
         self.part = ""  # how far the point is that is being solved, as text
@@ -42,9 +49,14 @@ class ProgressLine:
         global _active
         if sys.stderr is not None and sys.stderr.isatty():
             with suppress(ImportError):
-                self._bar = import_module("tqdm").tqdm(unit=f" {self.unit}", file=sys.stderr, leave=False, total=0)
+                form = {} if self.time_left is None else {"bar_format": BAR_WITH_TIME_LEFT}
+                self._bar = import_module("tqdm").tqdm(
+                    unit=f" {self.unit}", file=sys.stderr, leave=False, total=0, **form
+                )
             self._thread = begin_beside(self._draw_often)
             _active = self if self._thread is not None else None
+        elif self.time_left is not None:
+            self._thread = begin_beside(self._say_where_silent)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -52,8 +64,9 @@ class ProgressLine:
         if self._thread is not None:
             self._ended.set()
             self._thread.join()
-            _active = None
-            self.clear()
+            if _active is self:
+                _active = None
+                self.clear()
             if self._bar is not None:
                 self._bar.close()
 
@@ -64,6 +77,7 @@ class ProgressLine:
             self.done = done
             self.total = total
             self.part = ""
+            self._said = time.monotonic()
 
     @property
     def text(self) -> str:
@@ -72,9 +86,17 @@ class ProgressLine:
         head = f"{self.done:.4g} of {self.total:.4g} {self.unit}, " if self.total else ""
         text = f"{head}{in_words(passed)} passed"
         solved = self.done - (self._first or 0.0)
-        if self.total and solved > 0:
+        if self.time_left is not None:
+            text += self._left
+        elif self.total and solved > 0:
             text += f", about {in_words(passed * (self.total - self.done) / solved)} left"
         return f"{text}; {self.part}" if self.part else text
+
+    @property
+    def _left(self) -> str:
+        """The time left by the estimates of the parts, as text; "" where there is none."""
+        seconds = 0.0 if self.time_left is None else self.time_left.seconds
+        return f", about {in_words(seconds)} left" if seconds > 0 else ""
 
     def draw(self) -> None:
         """Draw the line as it is now."""
@@ -86,7 +108,8 @@ class ProgressLine:
                 return
             self._bar.total = self.total or None
             self._bar.n = self.done
-            self._bar.set_postfix_str(self.part, refresh=False)
+            words = (self._left.removeprefix(", "), self.part)
+            self._bar.set_postfix_str("; ".join(filter(None, words)), refresh=False)
             self._bar.refresh()
 
     def clear(self) -> None:
@@ -96,6 +119,15 @@ class ProgressLine:
                 self._bar.clear()
             sys.stderr.write(CLEAR_LINE)
             sys.stderr.flush()
+
+    def _say_where_silent(self) -> None:
+        while not self._ended.wait(REFRESH):
+            now = time.monotonic()
+            with self._lock, suppress(OSError, ValueError, AttributeError):
+                if now - self._said >= SILENCE:
+                    self._said = now
+                    sys.stderr.write(f"{self.text}\n")
+                    sys.stderr.flush()
 
     def _draw_often(self) -> None:
         while not self._ended.wait(REFRESH):

@@ -45,6 +45,7 @@ from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_pictures import STUDY_PICTURE, plot_study
 from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines, warning_lines
+from .time_left import TimeLeft
 
 if TYPE_CHECKING:
     pass
@@ -65,17 +66,19 @@ def run_study(arguments: Namespace) -> None:
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     others = (STUDY_PICTURE, "report.html", BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY)
     check_outputs(arguments, arguments.out, [*names, *others])
-    say(plan.explain(arguments.out))
+    (explanation, expected) = studies.explained(plan, arguments.out)
+    say(explanation)
     begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
     kept = keeping(lambda: _kept(arguments.out))
-    with ProgressLine("points") as shown, kept, workers_of as executor, progress_to(moment_reports()):
+    time_left = None if arguments.cluster is not None else TimeLeft(expected, workers)
+    with ProgressLine("points", time_left) as shown, kept, workers_of as executor, progress_to(moment_reports()):
         result = studies.study(
             plan,
             executor=executor,
             store=arguments.out,
-            on_progress=shown.update,
-            on_point=_point_reports(plan, begun.moment),
+            on_progress=_progress(plan, shown),
+            on_point=_point_reports(plan, begun.moment, time_left),
         )
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
@@ -132,9 +135,24 @@ def _verb(count: int) -> str:
     return "is" if count == 1 else "are"
 
 
-def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]:
-    """Return what writes f and the power loss of each point when it is solved, with the time left: of each one in a study
-    of up to `MOST_LINES` points, else of one a second."""
+def _progress(plan: studies.StudyPlan, shown: ProgressLine) -> Callable[[int, int], None]:
+    """Return what reports how many points, or curves that choose their speeds, have ended."""
+    before = -1
+
+    def on_progress(done: int, total: int) -> None:
+        nonlocal before
+        if plan.chooses_speeds and shown.time_left is not None and before >= 0:
+            for _ in range(done - before):
+                shown.time_left.end_next()
+        before = done
+        shown.update(done, total)
+
+    return on_progress
+
+
+def _point_reports(plan: studies.StudyPlan, begun: float, time_left: TimeLeft | None = None) -> Callable[..., None]:
+    """Return what writes f and the power loss of each point when it is solved, with the time left (without ``time_left`` by the
+    points so far): of each one in a study of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
     # when the last points came together, as a process hands over several, and how many were done then
@@ -149,13 +167,20 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
         if now - last > SECONDS_OF_A_BATCH or last - batch[0] > LONGEST_BATCH:
             batch = (last, done - 1 - first)
         last = now
+        if time_left is not None and not plan.chooses_speeds:
+            along = index if plan.paired else index[:-1]
+            curve = int(np.ravel_multi_index(along, plan.curve_shape)) if along else 0
+            time_left.end((plan.keys[curve], plan.point_speed(index)))
         if total > MOST_LINES and not due(end=done == total):
             return
         head = f"[{done:>{len(str(total))}}/{total}{' curves' if plan.chooses_speeds else ''}]"
         passed = time.perf_counter() - begun
-        seconds = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
-        ends = f"wall-clock time {seconds}of the study so far {passed:.0f} s"
-        if 0 < batch[1] and done < total:
+        of_this = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
+        ends = f"wall-clock time {of_this}of the study so far {passed:.0f} s"
+        if time_left is not None:
+            seconds = time_left.seconds
+            ends += f", about {studies.in_words(seconds)} left" if done < total and seconds > 0 else ""
+        elif 0 < batch[1] and done < total:
             ends += f", about {studies.in_words((batch[0] - begun) * (total - done) / batch[1])} left"
         place = _place(plan, index, outcome)
         text = _in_a_line(outcome)

@@ -25,6 +25,9 @@ from .study_table import StudyTable
 # with 204 of them in sight, and 20 of the other 21 are.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 
+# The speed of a curve that chooses its speeds, in the place of one: a name.
+NO_SPEED = None
+
 # Scenes of a study that are made ready to count their cells. A choice between time and what is seen.
 SAMPLED = 8
 
@@ -93,12 +96,15 @@ class Left:
     Attributes
     ----------
     seconds : estimated processor time [s]
+    points : of each point by the key of its scene and its speed [m/s], in the order in which they are solved; of a curve that
+        chooses its speeds with `NO_SPEED`
     models : number of the points of these scenes that each model is expected to answer, by its name
     failed : why some cannot be solved, in lines
     warnings : what is expected not to hold, but the unusual values (`warnings_of`), in sentences
     """
 
     seconds: float
+    points: dict[tuple[str, Any], float]
     models: Counter[str]
     failed: list[str]
     warnings: list[str]
@@ -106,26 +112,39 @@ class Left:
 
 def _left(plan: Any, table: StudyTable) -> Left:
     """Return what is left of a study."""
-    left = [(plan.scenes[curve], speeds) for curve, _, speeds in table.left()]
+    left = [(plan.scenes[curve], key, speeds) for curve, key, speeds in sorted(table.left())]
     some = left[:: -(-len(left) // SAMPLED)] if left else []
     seconds = 0.0
     models: Counter[str] = Counter()
     failed = []
     violations: list[tuple[Violation, ...]] = []
-    for scene, speeds in some:
+    known: dict[tuple[str, Any], float] = {}
+    for scene, key, speeds in some:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
             prepared = prepare(scene)
             points = _estimated_points(prepared, speeds)
             one = _curve_seconds(points, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
+            known |= _seconds_of_each(key, points, one) if speeds else {(key, NO_SPEED): one}
             models.update(point.model.name for point in points)
             violations.append(_expected(prepared, speeds))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)
     checked = "scenes" if len(violations) == all_scenes else f"scenes checked (of {all_scenes})"
-    return Left(seconds=seconds, models=models, failed=failed, warnings=_in_sentences(violations, checked))
+    mean = sum(known.values()) / max(len(known), 1)
+    places = [(key, speed) for _, key, speeds in left for speed in speeds or (NO_SPEED,)]
+    each = {place: known.get(place, mean) for place in places}
+    return Left(seconds=seconds, points=each, models=models, failed=failed, warnings=_in_sentences(violations, checked))
+
+
+def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float) -> dict[tuple[str, Any], float]:
+    """Return the processor seconds of each of the ``points`` of a scene with this ``key``, the first with what they share, such that
+    they are ``total`` together."""
+    alone = [point.seconds - sum(part.seconds for part in point.shared) for point in points]
+    alone[0] += total - sum(alone)
+    return {(key, point.speed): seconds for point, seconds in zip(points, alone)}
 
 
 def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:
@@ -149,6 +168,11 @@ def in_words(seconds: float) -> str:
 def explain(plan: Any, store: Path | None = None) -> str:
     """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
     others will take, as text. Some of the maps are made. No point is solved."""
+    return explained(plan, store)[0]
+
+
+def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str, Any], float]]:
+    """Return what `explain` does, and the estimated processor seconds of each point that is left, as `Left.points`."""
     about = "about " if plan.chooses_speeds else ""
     different = plan.points if plan.chooses_speeds else sum(map(len, plan.requested.values()))
     once = f", {different} of them different: identical ones are solved once" if different < plan.points else ""
@@ -185,7 +209,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
         )
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
-        return "\n".join([*lines, "  time     nothing is left to solve"])
+        return "\n".join([*lines, "  time     nothing is left to solve"]), {}
     left = _left(plan, table)
     lines += [f"  {text}" for text in (*warnings_of(plan), *left.warnings)]
     if left.models:
@@ -196,7 +220,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
         )
         lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")
     lines.append(f"  time     about {in_words(left.seconds)} on one core ({WITHIN_WORDS})")
-    return "\n".join([*lines, *dict.fromkeys(left.failed)])
+    return "\n".join([*lines, *dict.fromkeys(left.failed)]), left.points
 
 
 def _range(key: str, values: tuple[Any, ...]) -> str:

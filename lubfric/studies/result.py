@@ -36,8 +36,10 @@ from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
 COLUMNS_OF_ERRORS = (*chain(*INTERVAL_COLUMNS.values()), *(f"uncertainty_{name}" for name in OF_UNCERTAINTY))
-# Points that a process of an executor receives at once. A choice: more waits for longer, fewer cost messages.
+# Points that a process of an executor receives at once, at most, and jobs that a study has at least where it has so many points.
+# Choices: more points wait for longer, fewer cost messages; fewer jobs leave processes idle.
 POINTS_AT_ONCE = 8
+LEAST_JOBS = 64
 
 
 @dataclass(frozen=True, repr=False)
@@ -326,7 +328,9 @@ def _carried_out(
             on_progress(done(), total)
 
     report()
-    jobs = _jobs(plan, list(table.left()), store, POINTS_AT_ONCE if executor is not None else None)
+    left = list(table.left())
+    at_once = min(POINTS_AT_ONCE, max(1, sum(len(speeds) for _, _, speeds in left) // LEAST_JOBS))
+    jobs = _jobs(plan, left, store, at_once if executor is not None else None)
     if plan.chooses_speeds:  # points of a curve come again, in the order in which they were chosen
         for key in {*plan.keys} - table.ended:
             table.forget(key)

@@ -406,3 +406,19 @@ def test_records_that_do_not_count_are_one_warning(tmp_path):
     assert len(damaged) == 3 and again.failed == again.missing == 0
     (text,) = (str(each.message) for each in caught)
     assert "is damaged, as 2 others in that folder, and does not count: they are to be solved again" in text
+
+
+@pytest.mark.parametrize("count, jobs", [(4, 4), (128, 64)])
+def test_few_points_are_jobs_of_their_own(monkeypatch, count, jobs):
+    """Points that one process solves one after the other leave the other processes idle."""
+    monkeypatch.setattr(points, "outcome_of", lambda *_, **__: lubfric.InputError("not solved"))
+    sent = []
+
+    class Counting(ThreadPoolExecutor):
+        def submit(self, *what):
+            sent.append(what)
+            return super().submit(*what)
+
+    with Counting(1) as executor:
+        lubfric.study(SCENE, {"bodies.load": [3.0]}, np.linspace(0.1, 1.0, count), executor=executor)
+    assert len(sent) == jobs

@@ -1,0 +1,117 @@
+"""The time left of a study: by work that is counted inside its points, and by the time since one ended."""
+
+import io
+import sys
+import time
+
+import pytest
+from small_study import SCENE
+
+import lubfric
+from lubfric import studies
+from lubfric.output import ProgressLine, TimeLeft, main, progress
+
+
+class Machine:
+    """A clock, and the work that is counted on it."""
+
+    def __init__(self):
+        self.now = 50.0
+        self.work = 7.0
+
+    def run(self, seconds, rate=1.0):
+        self.now += seconds
+        self.work += rate * seconds
+
+    def left(self, expected, processes=1):
+        return TimeLeft(expected, processes, clock=lambda: self.now, counted=lambda: self.work)
+
+
+def test_points_that_take_as_long_as_estimated_leave_the_rest_of_the_estimate():
+    machine = Machine()
+    estimates = {"a": 20.0, "b": 10.0, "c": 30.0}
+    left = machine.left(estimates)
+    passed = 0.0
+    for point, seconds in estimates.items():
+        for _ in range(4):
+            assert left.seconds == pytest.approx(60.0 - passed)
+            machine.run(seconds / 4)
+            passed += seconds / 4
+        left.end(point)
+    assert left.seconds == 0.0
+
+
+def test_the_time_left_falls_inside_a_point_and_grows_on_a_slow_machine():
+    (usual, slow) = (Machine(), Machine())
+    lines = [machine.left({"a": 20.0, "b": 20.0}) for machine in (usual, slow)]
+    seconds = []
+    for _ in range(9):
+        usual.run(2.0)
+        slow.run(2.0, rate=0.5)
+        seconds.append([line.seconds for line in lines])
+    fast = [pair[0] for pair in seconds]
+    assert fast == sorted(fast, reverse=True) and fast[-1] == pytest.approx(22.0)
+    assert seconds[-1][1] > 1.5 * (40.0 - 9.0)  # 9 s of work in 18 s
+
+
+def test_a_point_that_takes_longer_than_estimated_is_never_as_good_as_done():
+    machine = Machine()
+    left = machine.left({"a": 10.0})
+    machine.run(100.0)
+    assert left.seconds == pytest.approx(10.0)
+
+
+def test_longer_points_lengthen_the_others():
+    machine = Machine()
+    left = machine.left(dict.fromkeys("abcd", 10.0))
+    machine.run(30.0)
+    left.end("a")
+    assert left.seconds == pytest.approx(3 * 10.0 * (30.0 + 10.0) / (10.0 + 10.0))
+    left.end("not one of them")
+    assert list(left.expected) == ["b", "c", "d"]
+
+
+def test_several_processes_share_the_points():
+    machine = Machine()
+    left = machine.left(dict.fromkeys(range(8), 10.0), processes=4)
+    assert left.seconds == pytest.approx(20.0)
+    machine.now += 5.0  # the work is counted elsewhere
+    assert left.seconds == pytest.approx(15.0)
+    machine.now += 5.0
+    for point in range(4):
+        left.end(point)
+    assert left.seconds == pytest.approx(10.0)
+
+
+def test_the_work_of_a_point_is_about_what_is_expected_of_it():
+    """Both are seconds of a usual core; the estimate is within a factor of 3 in most cases."""
+    plan = lubfric.plan_study(SCENE, {"bodies.load": [3.0, 4.0]}, [0.1, 0.3])
+    (text, expected) = studies.explained(plan)
+    assert text.startswith(plan.explain().partition("  time ")[0]) and list(expected) == [
+        (key, speed) for key in plan.keys for speed in (0.1, 0.3)
+    ]
+    assert sum(expected.values()) == pytest.approx(studies.estimated_study(plan), rel=0.5)
+    left = TimeLeft({"all": 1000.0}, clock=lambda: 0.0)  # of a machine without a clock the work alone counts
+    lubfric.study(plan)
+    work = (1000.0 - left.seconds) / (1.0 + left.seconds / 5.0)
+    assert 0.02 < work / sum(expected.values()) < 50
+
+
+def test_a_pipe_gets_a_line_where_none_came_for_long(monkeypatch):
+    stream = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(progress, "REFRESH", 0.01)
+    monkeypatch.setattr(progress, "SILENCE", 0.05)
+    with ProgressLine("points", TimeLeft({"a": 40.0, "b": 40.0}, counted=time.monotonic)) as shown:
+        shown.update(0, 2)
+        time.sleep(0.15)
+    lines = stream.getvalue().splitlines()
+    assert 1 <= len(lines) <= 3 and lines[0].startswith("0 of 2 points, ") and "about 80 s left" in lines[0]
+
+
+def test_the_command_states_the_time_left_after_the_first_point(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text(SCENE.to_toml())
+    (tmp_path / "study.toml").write_text('scene = "s.toml"\nspeeds = [0.1, 0.3]\n[vary]\nbodies.load = [3.0, 4.0]\n')
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]) == 0
+    points = " ".join(capsys.readouterr().err.split()).split("] point ")[1:]
+    assert ["left)" in text for text in points] == [True, True, True, False]
