@@ -35,6 +35,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     sampling_error = answer.sampling_error
     has_sampling_error = math.isfinite(sampling_error.value)
     counted = sampling_error if has_sampling_error else replace(sampling_error, value=0.0)
+    is_above = answer.numerical > scene.numerics.tolerance  # then a note has the same advice
     of_solve = Uncertainty(
         coefficient=f,
         numerical=answer.numerical,
@@ -50,7 +51,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         model_sides=answer.model_error,
         by_limit=answer.by_limit,
         largest_in_model=largest_of(answer.parts_of_model),
-        narrows_numerical=answer.narrows_numerical,
+        narrows_numerical=f"{answer.recommendation} to reduce it" if is_above else answer.narrows_numerical,
         narrows_sampling=LARGER_MAP
         if prepared.sample.available_strips <= answer.decision.strips
         else SMALLER_SAMPLING_TOLERANCE,

@@ -108,7 +108,7 @@ class ModelAnswer:
     by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
     parts_of_model : what the model-form error consists of, each with its cause; (): not known
     accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
-    narrows_numerical : what narrows ``numerical``, as text
+    narrows_numerical : what narrows ``numerical`` where it is within the tolerance, as text
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
         (section.key, one of `lubfric.scene.inputs_not_given`); no part of ``model_error``
@@ -120,7 +120,7 @@ class ModelAnswer:
     notes : remarks on these errors
     report, decision : of the solve; what was modelled
     violations : limits of the model that are exceeded
-    recommendation : what to do where the numerical error exceeds the tolerance
+    recommendation : what reduces the numerical error where it exceeds the tolerance
     fields : of the solve; None if there are none
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
@@ -149,7 +149,7 @@ class ModelAnswer:
     area_needed: float = 1.0
     notes: tuple[str, ...] = ()
     violations: tuple[Violation, ...] = ()
-    recommendation: str = "set a larger numerics.tolerance"
+    recommendation: str = "set a smaller numerics.tolerance"
     fields: ContactFields | None = None
     fine_fields: Callable[[], ContactFields] | None = None
     details: ModelDetails | None = None

@@ -15,6 +15,7 @@ from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughnes
 from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
+    GIVE_LIMIT,
     Assumption,
     Decision,
     Heat,
@@ -93,7 +94,6 @@ BY_FLOW = "change of f with half the thinning of the flow at the limiting stress
 BY_LIMIT = "the limiting stress of the oil, which is not given"
 LESS_BY_LIMIT = "give lubricant.limiting_stress_coefficient to reduce it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
-LARGER_TOLERANCE = "set a larger numerics.tolerance"
 SMALLER_SOLVE_TOLERANCE = "set a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to
@@ -335,18 +335,18 @@ def _share_given_off(results: Sequence[DeterministicResult]) -> float:
 
 
 def _recommendation(prepared: Prepared, levels: Levels) -> str:
-    """Return what makes the error by the cells smaller: shorter ones, if the map has them."""
+    """Return what makes an error by the cells above the tolerance smaller: shorter cells, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
-        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])}, or {LARGER_TOLERANCE}"
+        return shorter_cells_in_motion(prepared, levels.pairs[0]).removesuffix(",")
     if levels.has_too_many_cells:
-        return f"{LARGER_TOLERANCE}, or {_fewer_cells(sample)}"
+        return _fewer_cells(sample)
     if not sample.cells.is_native and not sample.refines_in_place:
-        return f"set numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
+        return "set numerics.grid = 'given' for shorter cells"
     if prepared.is_given_or_measured:
-        return f"{LARGER_TOLERANCE}, or give {way_to_shorter_cells(prepared)}"
-    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given', or {LARGER_TOLERANCE}"
+        return f"give {way_to_shorter_cells(prepared)}"
+    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
 
 
 def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
@@ -501,7 +501,6 @@ def _violations(
         consequence = (
             "the limiting stress of the oil is not given, so the shear stress of the film is limited to f_b p there"
         )
-        recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if f_b p is meant), or eyring_stress'
         yield Violation(
             assumption=Assumption.FILM_BELOW_ITS_LIMIT,
             what="share of the load on a saturated film (strips of the deterministic model)",
@@ -509,7 +508,7 @@ def _violations(
             limit=CUT,
             unit="",
             consequence=consequence,
-            recommendation=recommendation,
+            recommendation=GIVE_LIMIT,
         )
     share = _share_given_off(results)
     if share > MOST_GIVEN_OFF:

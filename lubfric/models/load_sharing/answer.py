@@ -30,7 +30,7 @@ from .limits import limits_exceeded
 from .response import contact_length, point_numbers
 from .scatter import film_stress
 
-SMALLER_TOLERANCE = "set a smaller numerics.tolerance or give a larger map to reduce the error"
+SMALLER_TOLERANCE = "set a smaller numerics.tolerance or give a larger map"
 
 
 def answer_of(balanced: BalancedSample) -> ModelAnswer:

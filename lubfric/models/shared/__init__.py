@@ -100,7 +100,7 @@ from .statistics import (
     strips_for_error,
     student,
 )
-from .unknown_limit import LIMIT_RANGE, limit_bounds, limit_in_words
+from .unknown_limit import GIVE_LIMIT, LIMIT_RANGE, limit_bounds, limit_in_words
 from .unmodelled import (
     GAP_IN_CONTACT,
     ExpectedEffect,

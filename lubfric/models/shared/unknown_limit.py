@@ -10,6 +10,7 @@ from ...scene import Scene
 # limiting stress over pressure: mineral oils from .047 (Höglund 1999, in Arana et al. 2019), traction fluids to .1 (SKF,
 # Rolling bearings; Bair and Winer 1989 .088); typical.toml has them by name
 LIMIT_RANGE = (0.05, 0.10)
+GIVE_LIMIT = 'give lubricant.limiting_stress_coefficient, or "f_b" if f_b p is meant'
 SATURATED = 0.05  # share of the load on saturated films from which on f is held to depend on that
 
 
@@ -33,6 +34,5 @@ def limit_in_words(bounds: tuple[float, float]) -> str:
     low, high = LIMIT_RANGE
     return (
         f"the shear stress of the film between the asperities is limited to f_b p, because the limiting stress of the oil is not "
-        f"given: a limit of {low:g} p to {high:g} p changes f by {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} %; give "
-        'lubricant.limiting_stress_coefficient, or "f_b" if f_b p is meant'
+        f"given: a limit of {low:g} p to {high:g} p changes f by {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} %; {GIVE_LIMIT}"
     )
