@@ -49,6 +49,10 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     title = figures.plain_words(result.plan.scene.name) if options.has_title else ""
     if result.missing:
         title = "\n".join(filter(None, (title, f"not finished: {solved_so_far(result)}")))
+    combinations = int(np.prod(result.status.shape[:-1], dtype=int))
+    if result.paired and not _is_sample(result) and combinations > studies.MOST_OF_POINTS:
+        part = f"the first {studies.MOST_OF_POINTS} of {combinations} combinations; study.csv has all"
+        title = "\n".join(filter(None, (title, part)))
     over = _key_of_axis(result)
     varied = [key for key, (_, values) in result.coords.items() if np.unique(values.astype(str)).size > 1]
     if result.paired and not _is_sample(result):

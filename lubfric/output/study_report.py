@@ -688,6 +688,11 @@ def _mean_lines(result: StudyResult) -> list[str]:
         text = _mean_in_words(mean, low, high, "W")
         rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.{of_tooth_pair}")
         rows.append(_mean_friction(result, index, where))
+    others = int(np.prod(result.status.shape[:-1], dtype=int)) - MOST_MEANS
+    if others > 0:
+        rows.append(
+            f'The means of {others} other combinations are not listed; in Python, study.mean("power_loss") has all.'
+        )
     return rows
 
 

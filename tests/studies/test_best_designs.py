@@ -10,7 +10,7 @@ import pytest
 from small_study import SCENE
 
 import lubfric
-from lubfric.output import best_designs, study_report
+from lubfric.output import best_designs, study_pictures, study_report
 from lubfric.studies import StudyResult
 
 LOADS = [3.0, 5.0, 8.0]
@@ -118,3 +118,16 @@ def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distingu
         numbers = re.findall(r"no\. (\d+)", cells[4])
         assert [int(number) for number in numbers] == [*one.rival_rows[:3], *sorted(one.rival_rows[3:])][: len(numbers)]
         assert (cells[4] == "none") == (not one.rivals)
+
+
+def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeypatch):
+    cycle = {"load [N]": [3, 5], "speed [m/s]": [0.1, 0.2], "position [m]": [0, 1]}
+    f = RANDOM.uniform(0.05, 0.1, (12, 2))
+    result = made(f, 0.0 * f, vary={"surface.sq": np.linspace(5e-8, 2e-7, 12).tolist()}, speeds=None, points=cycle)
+    lines = study_report.answer_lines(result)
+    assert sum("mean power loss of the operating points" in line for line in lines) == 6
+    assert any(line.startswith("The means of 6 other combinations are not listed") for line in lines)
+    titles = []
+    monkeypatch.setattr("lubfric._base.figures.head", lambda figure, title: titles.append(title))
+    study_pictures.plot_study(tmp_path / "study.png", result)
+    assert titles[0].endswith("the first 10 of 12 combinations; study.csv has all")
