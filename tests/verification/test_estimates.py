@@ -13,7 +13,7 @@ from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, Transient
 from lubfric.studies import estimated_fit, estimated_study
 from verification.campaigns.estimates.jobs import KINDS, drawn
-from verification.campaigns.estimates.table import ratios, rows, table
+from verification.campaigns.estimates.table import TABLE, estimate_again, ratios, rows, table
 from verification.pace import PAIR, paced
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
@@ -84,6 +84,18 @@ def test_the_table_of_runs_holds_what_the_words_promise():
     apart = np.concatenate([np.abs(np.log(values)) for values in ratios().values()])
     assert apart.size >= 30 and np.mean(apart <= math.log(3)) >= 0.8
     assert [row[0] for row in table().rows] == ["all", *ratios()]
+
+
+def test_estimates_that_were_measured_stay_those_of_their_runs(tmp_path):
+    """They have the pace of the core in them, as the times of the runs have."""
+    file = tmp_path / "table.csv"
+    lines = TABLE.read_text().splitlines()
+    (measured,) = (line for line in lines if line.startswith("20009,"))
+    other = next(line for line in lines if line.startswith("10059,"))
+    file.write_text("\n".join([lines[0], measured, other.replace(other.split(",")[6], "77.0")]) + "\n")
+    estimate_again(file)
+    assert file.read_text().splitlines()[1] == measured
+    assert [row["estimate"] != "77.0" for row in rows(file)] == [True, True]
 
 
 @pytest.mark.parametrize("seed", [10011, 10035, 10059])
