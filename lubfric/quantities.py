@@ -89,7 +89,8 @@ class Quantities(Generic[T]):
     contact_load: T = quantity(
         *("N", "load carried by the rough contact", "F_C"),
         error="sharing",
-        note="except by load sharing alone the load where the shear stress is f_b p, with saturated films of a Newtonian oil",
+        note="load where the shear stress is f_b p, including saturated films of a Newtonian oil; by load sharing alone the load of "
+        "the rough contact",
         follows_asperity_load=True,
         follows_sliding=True,
         is_controlled=True,
@@ -115,7 +116,7 @@ class Quantities(Generic[T]):
         "N",
         "rolling part of the shear force",
         error="shear",
-        note="where roughness moves with the pressure on the flanks of surface 2, which scatters about 0",
+        note="with moving roughness it includes the pressure on the flanks of surface 2, which scatters about 0",
         is_friction=True,
         is_left_by_cells=True,
         is_controlled=True,
@@ -124,7 +125,7 @@ class Quantities(Generic[T]):
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
         error="shear",
-        note="moment of the load about the middle over R; that of the smooth film where roughness moves",
+        note="moment of the load about the middle, over R; with moving roughness that of the smooth film",
         is_left_by_cells=True,
         is_controlled=True,
     )
@@ -147,7 +148,8 @@ class Quantities(Generic[T]):
     real_contact_area: T = quantity(
         *("m2", "real contact area", "A_c"),
         error="area",
-        note="inside and outside the Hertz strip, on the length of the line contact; except by load sharing alone where the stress is f_b p",
+        note="inside and outside the Hertz strip, over the length of the line contact: area where the shear stress is f_b p; by load "
+        "sharing alone that of the rough contact",
         follows_asperity_load=True,
         follows_sliding=True,
         is_in_time=False,
@@ -177,7 +179,7 @@ class Quantities(Generic[T]):
     inlet_film_factor: T = quantity(
         *("-", "factor on the film by the heat of its inlet"),
         error="heat",
-        note="1 where it is too small to matter; NaN where it was not computed",
+        note="1 where the heat is too small to matter; NaN where it was not computed",
     )
     flash_temperature_rise: T = quantity(
         *("K", "largest temperature rise of the surfaces"),
@@ -188,8 +190,8 @@ class Quantities(Generic[T]):
         "K",
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
-        note="mean across the film and along the line; by the deterministic model of one strip at one moment, between which "
-        "it scatters; NaN where it was not computed",
+        note="mean across the film and along the line; by the deterministic model for one strip at one moment, so it scatters; "
+        "NaN where it was not computed",
     )
     power_loss: T = quantity(
         "W",
@@ -227,7 +229,7 @@ class PointQuantities(Quantities[T]):
     volume_residual: T = quantity(
         "-",
         "relative residual of the volume balance",
-        note="(gap - g)/(gap + g), g: that demanded by the closure, by Eq. (8) the film",
+        note="(gap - g)/(gap + g), where the closure requires the gap g (by Eq. (8) the film)",
     )
     clearance: T = quantity(
         "-",
@@ -254,7 +256,8 @@ class PointQuantities(Quantities[T]):
         note="central film of smooth surfaces under F_T, by closed forms, also for a starved inlet",
     )
     lambda_ratio: T = quantity(
-        *("-", "lambda ratio", "Λ"), note="full-load film thickness over Sq; in time of steady motion as at that moment"
+        *("-", "lambda ratio", "Λ"),
+        note="full-load film thickness over Sq; in time that of steady motion with the values of the moment",
     )
     boundary_film_load: T = quantity(
         "N",
@@ -267,7 +270,7 @@ class PointQuantities(Quantities[T]):
     saturated_film_load: T = quantity(
         "N",
         "load on thicker films whose shear stress is at its limit",
-        note="the limit of the oil, or f_b p of a Newtonian one, where it is part of the asperity load; NaN by load sharing alone",
+        note="limit of the oil, or f_b p for a Newtonian oil, whose asperity load includes this load; NaN by load sharing alone",
         is_in_time=False,
     )
 
@@ -291,7 +294,7 @@ class UncertaintyQuantities(Generic[T]):
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
     effective_contacts: T = quantity(
-        "-", "effective number of asperity contacts: as many equal ones would scatter as much", default=math.nan
+        "-", "effective number of asperity contacts: equal contacts that would scatter as much", default=math.nan
     )
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
     area_needed: T = quantity("-", "required area of a measured map over its own", note="1: enough", default=1.0)
@@ -341,7 +344,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "time_error": Quantity("-", "local error of the last step over its tolerance"),
     "heat_change": Quantity("-", "relative change of f by the heat of film and surfaces"),
     "edge_load": Quantity("-", "share of the contact's load on the edge columns of its patch"),
-    "mass_residual": Quantity("-", "what is missing in the balance of the lubricant over the flow"),
+    "mass_residual": Quantity("-", "error of the mass balance of the lubricant over the flow"),
     "steps": Quantity("-", "steps taken so far"),
     "mean_film": Quantity("m", "mean film thickness over A"),
     "wet_from": Quantity("m", "start of the pressurised film"),

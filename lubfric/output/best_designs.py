@@ -35,10 +35,10 @@ MOST_CONDITIONS = 200
 GIVEN_SPEEDS = ("u1", "u2")
 
 RULE = (
-    "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and where an operating point lies; all "
-    "else that is varied is design, but seeds and keys of [numerics] and [contact]. Two points cannot be distinguished where their numbers differ by less than the root sum of "
-    "squares of the parts of their 95 % intervals that face each other (errors taken as independent; those that points have in "
-    "common make a difference better known than that), or where an interval is not known."
+    "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an operating point. "
+    "All other varied keys are design, except seeds and keys of [numerics] and [contact]. Two points cannot be distinguished if they "
+    "differ by less than the root sum of squares of the sides of their 95 % intervals that face each other, or if an interval is not "
+    "known. This rule takes the errors as independent; errors that both points share make the difference better known."
 )
 
 

@@ -263,9 +263,7 @@ def estimate_scene(
         "surface": [*sample.described(surface), *notes, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
-        "effects not modelled": changes
-        if rows
-        else ["none of the known effects would change f by more than its tolerance"],
+        "effects not modelled": changes if rows else ["each known effect changes f by less than numerics.tolerance"],
         "validity": _doubts(at) or ["no limit of the model is exceeded before the solve"],
     }
     return SceneEstimate(
@@ -369,7 +367,9 @@ def _model(
         run = run_model_of(scene)
         rows = [run.described(scene)]
         if has_moving_roughness(scene) and not may_move_roughness(scene):
-            rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
+            rows.append(
+                "moving roughness is treated as stationary; set numerics.model = 'deterministic' to include its motion"
+            )
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
     forecasts = [work.at(speed, measured) for speed in moving[:: max(1, len(moving) // SOME)]]
@@ -386,7 +386,7 @@ def _model(
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the {slow.name} model"
         longest = max(one.longest_strip_seconds for one in forecasts)
         if longest > strip:
-            takes += f", and {in_words(longest)} if the error by its cells requires shorter ones"
+            takes += f", and {in_words(longest)} if the error of its cells requires shorter cells"
         if not may_move_roughness(scene):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:

@@ -108,7 +108,7 @@ def fit_status(result: FitResult) -> tuple[str, str]:
         head += f" The data do not determine: {', '.join(undetermined)}."
     one_sided = [_label(key) for key in result.undetermined_sides if key not in result.undetermined]
     if one_sided:
-        head += f" They determine on one side alone: {', '.join(one_sided)}."
+        head += f" They determine only one end of the interval of: {', '.join(one_sided)}."
     known = result.model_error[np.isfinite(result.model_error)]
     is_inexact = bool(known.size) and float(known.max()) > LARGE_NUMERICAL_ERROR
     if is_inexact:
@@ -286,8 +286,8 @@ def _method(result: FitResult) -> list[str]:
         f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f {percent(result.base.numerics.tolerance)}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
-        "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter that f does not change with "
-        "there is followed to its bounds.",
+        "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter without effect on f there "
+        "is varied up to its bounds.",
     ]
 
 

@@ -197,7 +197,9 @@ def status_kind(*, failed: bool, inexact: int) -> str:
 
 
 # What is known of f where the sample is too short for an interval.
-WITHOUT_SAMPLING = "The 95 % interval is not known, because the sampling error is not; the other errors alone give {}."
+WITHOUT_SAMPLING = (
+    "The 95 % interval is not known, because the sampling error is not known; the other errors alone give {}."
+)
 
 
 def curve_status(curve: CurveResult) -> str:
@@ -235,7 +237,7 @@ def orders_of_magnitude(count: int, total: int) -> list[str]:
         return []
     where = "The" if total == 1 else f"At {count} of {total} points the"
     return [
-        f"{where} numerical error of f is above {percent(LARGE_NUMERICAL_ERROR)}: f is an order of magnitude only (see the "
+        f"{where} numerical error of f is above {percent(LARGE_NUMERICAL_ERROR)}, so f is only an order of magnitude (see the "
         "warnings)."
     ]
 
@@ -243,11 +245,13 @@ def orders_of_magnitude(count: int, total: int) -> list[str]:
 def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
     """Return how many of ``total`` solved points miss the requested tolerance, and how many have no interval, in
     sentences."""
-    places = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
-    words = "the numerical error of f is above the requested tolerance" + ("." if unknown else ", and in its interval.")
+    places = [f"At {count} of {total} points the" if total > 1 else "The" for count in (inexact, unknown)]
+    words = "numerical error of f is above the requested tolerance" + (
+        "." if unknown else "; its interval includes this error."
+    )
     sentences = [f"{places[0]} {words}"] if inexact > 0 else []
     if unknown > 0:
-        sentences.append(f"{places[1]} the interval of f is not known.")
+        sentences.append(f"{places[1]} interval of f is not known.")
     return sentences
 
 
@@ -264,7 +268,7 @@ def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str 
         return f"{what}because a curve over the speed has no point at rest."
     if name == "speed" and not belongs_to_curve(value, others):
         return f"{what}because the curve is in the other direction."
-    return f"{what}because --{name}s does not name it."
+    return f"{what}because --{name}s does not contain it."
 
 
 def operating_point_of(scene: Scene, name: str) -> float:
@@ -290,15 +294,15 @@ def _curve_answer(
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
+    if missing:
+        sentences.append(f"{missing} The answer is for the nearest solved one.")
     if others := point.uncertainty.without_sampling_in_words:
         sentences.append(WITHOUT_SAMPLING.format(others))
-    if missing:
-        sentences.append(f"{missing} The answer is that of the nearest one that was solved.")
     sentences.append(_inputs_in_interval(point))
     if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
         sentences.append(SIGN_OF_F)
     if point.decision.basis:
-        sentences.append(f"This point is by the {point.decision.basis}.")
+        sentences.append(f"The model of this point is the {point.decision.basis}.")
         sentences += _change_of_model(curve)
     low, high = point.power_loss_interval
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
@@ -355,7 +359,7 @@ def _change_of_model(curve: CurveResult) -> list[str]:
         return []
     parts = "; ".join(f"{at_values(values, unit, plural)} by the {model}" for model, values in places.items())
     return [
-        f"The points are not all by one model: {parts}. Each model has its own error, and numbers beside f, such as the smallest film "
+        f"Several models solved the points: {parts}. Each model has its own error, so numbers other than f, such as the smallest film "
         "and the temperature rises, jump where the model changes."
     ]
 
@@ -398,7 +402,7 @@ def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
         changes.append(f"{100 * ((last / first) ** by_factor - 1):+.2g} %")
     return [
         f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} and the "
-        f"lambda ratio by {changes[1]}. That much more viscosity does the same, but for the heat."
+        f"lambda ratio by {changes[1]}. As much more viscosity has the same effect, except for heat."
     ]
 
 
@@ -418,7 +422,7 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
     elif math.isnan(speed):
         first = (
             f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
-            f"{high:.4g} m/s; more speeds between them determine it."
+            f"{high:.4g} m/s; solve more speeds between them to determine it."
         )
     else:
         surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
@@ -550,8 +554,8 @@ def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
     ends = " to ".join(dict.fromkeys(f"{100 * end:.2g}" for end in (shares.min(), shares.max())))
     where = f" at {shares.size} of {counted(contact.size, 'points')}" if contact.size > 1 else ""
     return (
-        f"Films that are sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio counts "
-        "none of that."
+        f"Films sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio does not include "
+        "this load."
     )
 
 
@@ -737,8 +741,8 @@ def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
     if negative:
         notes.append(
             f"f is the force on surface 2 against its sliding, over the load. It is negative at "
-            f"{counted(negative, 'outputs')}, where the rolling resistance of that surface is above the friction of "
-            "sliding; the power loss counts both surfaces."
+            f"{counted(negative, 'outputs')}, where the rolling resistance of this surface exceeds the friction of "
+            "sliding; the power loss includes both surfaces."
         )
     if result.start_in_words:
         notes.append(result.start_in_words)
@@ -755,8 +759,8 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
         return answers
     return (
         f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
-        "(numerics.model_tolerance). A steady point with the values of such a moment (a scene without [transient]) has a "
-        "narrower interval where the deterministic model applies and heat causes the smaller part of this error."
+        "(numerics.model_tolerance). For a narrower interval, solve a steady point with the values of such a moment (a scene without "
+        "[transient]); this helps where the deterministic model applies and heat causes less than half of this error."
     )
 
 
@@ -839,7 +843,7 @@ def _history_table(result: TransientResult) -> str:
 def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, moments: Sequence[str] = ()) -> str:
     """Return the table of the effects that are not modelled; ``moments``: of a run in time, when each is largest."""
     if not effects:
-        return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"
+        return "<p>Each known effect changes f by less than numerics.tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(what))}</td>"

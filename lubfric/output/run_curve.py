@@ -199,7 +199,7 @@ def _write(
     if isinstance(law, studies.Law):
         unusual_values.append(f"formula of the curve (law.json, law.c): {law.warning or law.error_in_words}")
     given: dict[str, Any] = {}
-    with folder.reporting("report.html is without the inputs as they were given"):
+    with folder.reporting("report.html does not show how the inputs were given"):
         given = given_tables(arguments.scene)
     again = _repeated(prepared.scene, curve, arguments)
     own = operating_point_of(prepared.scene, curve.SWEPT[0])

@@ -90,15 +90,15 @@ DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
 # Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
 RISE_NOTE = (
-    "The temperature rises have no stated error. By the deterministic and the quick model they are those of one strip at one "
-    "moment, and the rise of the film varies up to threefold from one strip or moment to another: the steps from point to point "
-    "show this scatter, too. f contains the heat, and its interval the error by it."
+    "The temperature rises have no stated error. The deterministic and the quick model compute them for one strip at one moment. The "
+    "rise of the film varies up to threefold between strips and moments, so steps from point to point are partly scatter. f includes "
+    "the effect of heat, and the interval of f its error."
 )
 
 # What f is at a point where nothing slides, and why the power loss there is not f times a speed.
 IN_PURE_ROLLING = (
-    "Nothing slides there: f is the rolling part of the force on one surface. The power loss is that of the rolling resistance "
-    "of both surfaces together, in which the pressure on the flanks of moving roughness (in f by the deterministic model) cancels"
+    "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling resistance of "
+    "both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, cancels"
 )
 
 # Where the points are listed that a sentence has no room for.
@@ -112,7 +112,7 @@ DERIVED_COLUMNS = {
 }
 
 # What the mean power loss of a path of contact is.
-OF_TOOTH_PAIR = "It is that of one tooth pair: a gear has this times its contact ratio."
+OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
 
 # Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
 # of a text.
@@ -131,7 +131,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     about = (
         "no. is the row of study.csv, which has all numbers."
         if rows == size
-        else f"Some {rows} of {size} points, evenly, and those of the answer. No. is the row of study.csv, which has all of them."
+        else f"About {rows} of {size} points, evenly spread, and those of the answer. No. is the row of study.csv, which has all."
     )
     about += " Its last column has the numbers of the warnings above." if any(each.numbers for each in warnings) else ""
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
@@ -236,7 +236,7 @@ def why_no_intervals(result: StudyResult) -> str:
     shape = scene.contact.shape
     spacing = scene.contact.spacing
     varies = any(name.startswith("contact") for name in result.coords)
-    text += ": the single patch is too short there for its sampling error"
+    text += ", because the single patch is too short there for a sampling error"
     if has_moving_roughness(scene) and known.any() and shape is not None and spacing is not None and not varies:
         length = shape[0] * float(np.broadcast_to(spacing, 2)[0])
         widths = length / np.array([each.bodies.half_width for each in _scene_of_each(result)])
@@ -244,8 +244,8 @@ def why_no_intervals(result: StudyResult) -> str:
             f". It is {_ends(widths[unknown])} half-widths of the Hertz strip long along the motion there, and "
             f"{_ends(widths[known])} at the points with an interval"
         )
-    way = "A larger map" if is_measured(scene) else "numerics.sampling = 'strips' or a larger contact.shape"
-    return f"{text}. {way} gives an interval; 'lubfric run' of such a point states how much is missing."
+    way = "a larger map" if is_measured(scene) else "numerics.sampling = 'strips' or a larger contact.shape"
+    return f"{text}. Give {way} for an interval; 'lubfric run' of such a point states how much is missing."
 
 
 def _ends(values: np.ndarray) -> str:
@@ -258,7 +258,7 @@ def model_error_above_target(result: StudyResult) -> list[str]:
     that was chosen by its name. Points where f is near 0, as where sliding changes its sign, are apart, with the error in f
     itself."""
     target = result.plan.scene.numerics.model_tolerance
-    advice = "numerics.model = 'auto' takes the cheapest model within it"
+    advice = "set numerics.model = 'auto' for the cheapest model within it"
     error = np.where(_is_above_target(result), result["uncertainty_model"].flat, np.nan)
     size = np.abs(result["coefficient"]).ravel()
     near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
@@ -276,8 +276,8 @@ def model_error_above_target(result: StudyResult) -> list[str]:
         ends = " to ".join(dict.fromkeys(f"{end:.2g}" for end in (in_f.min(), in_f.max())))
         numbers = _numbers_of_points(result)[near_zero].tolist()
         texts.append(
-            f"{numbers_in_words(numbers, result.solved)}, where f is near 0, the model-form error is {ends} in f itself: a ratio to "
-            f"f says nothing there{'' if texts else f', and {advice}'}."
+            f"{numbers_in_words(numbers, result.solved)}, where f is near 0, the model-form error is {ends} in f itself, not relative "
+            f"to f{'' if texts else f'; {advice}'}."
         )
     return texts
 

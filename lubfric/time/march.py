@@ -216,7 +216,7 @@ def report_of(
         advice = "make the histories change less abruptly there, or set a looser transient.tolerance"
         if math.isfinite(most_work):
             status = WORK_LIMIT
-            why = f"What is left needs more work than numerics.max_work = {most_work:.4g} s allows"
+            why = f"The remaining time needs more work than numerics.max_work = {most_work:.4g} s allows"
             advice = (
                 "raise numerics.max_work (a run with a checkpoint continues from there), or loosen transient.tolerance"
             )

@@ -49,8 +49,8 @@ from .scene_in_time import scene_at, sliding_at
 NO_FLOW = 1e-2
 
 STEADY_ONLY = (
-    "compare f with that of a steady point of the same values (a scene without [transient]), where "
-    "numerics.film_deflection = 'scaled' deflects the film by the total load"
+    "compare f with that of a steady point with the same values (a scene without [transient]) and "
+    "numerics.film_deflection = 'scaled', where the total load deflects the film"
 )
 # Entrainment speed [m/s] of a film at rest, which was drawn in slowly. A choice: slower films are as thin as molecules.
 STANDSTILL_SPEED = 1e-6
@@ -280,7 +280,8 @@ def _violated(
             limit=scene.numerics.tolerance,
             unit="",
             consequence="the grid of a run in time does not resolve the pressure spike, or the film is ruptured where it shears most",
-            recommendation="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
+            recommendation="set a tighter numerics.film_tolerance, or solve the steady point at the same speed (lubfric.friction), which "
+            "resolves the spike",
         )
     if row["contact_load"] > 0:
         yield from violations_by_deflection(scene, row["mean_gap"], STEADY_ONLY)

@@ -305,7 +305,9 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     maps = maps_of_bodies(prepared, 0)
     if len(maps) == 1 and transient.sliding is not None and len(moving_bodies(scene)) > 1:
-        raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
+        raise InputError(
+            " moves two rough bodies at different speeds", "transient.sliding", "a map of each body (lubfric.prepare)"
+        )
     if not maps:  # smooth
         surface = replace(surface, heights=surface.heights[:, :1], mask=None)
         map_coarsening = (map_coarsening[0], 1)
@@ -383,9 +385,7 @@ def deterministic_moment(
     ]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        recommendation = (
-            "numerics.model = 'paper', which models heat in time; heat = 'off' neglects heat without this warning"
-        )
+        recommendation = "set numerics.model = 'paper', which models heat in time; numerics.heat = 'off' neglects heat without this warning"
         violations.append(
             Violation(
                 assumption=Assumption.ISOTHERMAL_RUN,

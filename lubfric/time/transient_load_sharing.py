@@ -24,7 +24,7 @@ CONTACT_SHARE = 3.0
 # Loosest tolerance of the volume balance [-], whatever the local error of a step may be. A choice: f of every output follows
 # from it.
 LOOSEST_BALANCE = 1e-4
-STANDS_STILL = "moving roughness is treated as stationary; numerics.model = 'deterministic' moves it"
+STANDS_STILL = "moving roughness is treated as stationary; set numerics.model = 'deterministic' to include its motion"
 
 
 @dataclass(frozen=True, kw_only=True)

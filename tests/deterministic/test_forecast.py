@@ -55,7 +55,7 @@ def test_auto_ends_a_strip_whose_first_steps_forecast_too_much_work(with_limit):
     (ended, spent) = counted()
     assert ended.decision.model == "quick" and ended.coefficient == quick.coefficient
     assert "by its first 13 steps in time one strip would take at least" in ended.decision.text
-    assert "numerics.model = 'deterministic' solves it" in ended.decision.text
+    assert "set numerics.model = 'deterministic' to solve it" in ended.decision.text
     (named, all_work) = counted("deterministic")
     assert named.decision.model == "deterministic"
     assert of_quick < spent < of_quick + 0.5 * all_work

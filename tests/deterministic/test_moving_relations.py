@@ -111,7 +111,7 @@ def test_f_is_that_of_the_strip_as_shorter_cells_change_it(results):
     change = result.coefficient / strip.coefficient - 1
     slope = np.log(strip.sliding_at_twice_film / strip.sliding_at_half_film) / np.log(4.0)
     assert slope > 1e-3 and -0.5 * slope < change < 0
-    assert f"f corrected by {100 * change:+.2g} % for shorter cells" in result.decision.text
+    assert f"f is corrected by {100 * change:+.2g} % for shorter cells" in result.decision.text
     assert result.shear_force + result.boundary_force == pytest.approx(result.coefficient * 60.0, rel=1e-9)
     assert result.contact_load + result.film_load == pytest.approx(60.0, rel=1e-9)
 

@@ -223,9 +223,7 @@ def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_firs
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     ((kind, text),) = re.findall(r'<p class="status (\w*)" role="status">(.*?)</p>', page)
     assert kind == ("inexact" if is_large else "")
-    first = (
-        "At 2 of 2 points the numerical error of f is above 20 %: f is an order of magnitude only (see the warnings)."
-    )
+    first = "At 2 of 2 points the numerical error of f is above 20 %, so f is only an order of magnitude (see the warnings)."
     assert text.startswith(f"{first} Converged: all 2" if is_large else "Converged: all 2")
     assert ".status.inexact" in page
 
@@ -234,6 +232,6 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     assert shortfalls(0, 0, 3) == []
     inexact, unknown = shortfalls(2, 3, 3)
     assert inexact.startswith("At 2 of 3 points the numerical error of f is above the requested tolerance")
-    assert "in its interval" not in inexact and "in its interval" in shortfalls(2, 0, 3)[0]
+    assert "its interval includes" not in inexact and "its interval includes" in shortfalls(2, 0, 3)[0]
     assert unknown == "At 3 of 3 points the interval of f is not known."
-    assert shortfalls(0, 1, 1) == ["There the interval of f is not known."]
+    assert shortfalls(0, 1, 1) == ["The interval of f is not known."]

@@ -181,11 +181,15 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
     basis = f"{BASIS} on {error_models()['rest'].cases} solved cases)"
-    assert page.index("f = ") < page.index(f"This point is by the {basis}.") < page.index("Uncertainty budget")
+    assert (
+        page.index("f = ") < page.index(f"The model of this point is the {basis}.") < page.index("Uncertainty budget")
+    )
     assert "numerical (solvers)" in page and "model-form (equations, long cells)" in page
     assert "is in the model-form error, not in the numerical one" in page.lower()
     titles: list[str] = []
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
+    monkeypatch.setattr(
+        "lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_, **__: titles.append(title)
+    )
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")
     assert main(["plot", str(tmp_path / "out")]) == 0
     assert [title.splitlines() for title in titles] == [[scene.name, basis]]

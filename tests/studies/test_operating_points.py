@@ -54,7 +54,7 @@ def test_where_nothing_slides_the_power_is_the_resistance_of_both_surfaces(resul
     """Point 2 rolls without slip: P = (F_1 + F_2) U, and the sentence with its f says so."""
     assert result["power_loss"][1] == pytest.approx(result["rolling_resistance"][1] * 0.015, rel=1e-12)
     (text,) = [line for line in answer_lines(result) if "Nothing slides" in line]
-    assert "at point 2" in text and "rolling resistance of both surfaces together" in text
+    assert "at point 2" in text and "rolling resistance of both surfaces" in text
 
 
 def test_the_mean_of_a_cycle_weighs_by_the_duration(result, points):
@@ -211,7 +211,9 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     mean_text = with_interval(mean, *ends, unit="W")
     assert f"The mean power loss of the operating points, weighted by the duration, is {mean_text}" in said
     (loss,) = (line for line in said.splitlines() if line.startswith("The mean power loss"))
-    assert loss.endswith("It is that of one tooth pair: a gear has this times its contact ratio.")  # over positions
+    assert loss.endswith(
+        "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
+    )  # over positions
     largest = max(points, key=lambda point: point.power_loss)
     largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
     assert f"The largest power loss is {largest_text}" in said
@@ -339,7 +341,7 @@ def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
     table = {"speed [m/s]": [0.1, 0.1], "sliding_speed [m/s]": [0.48, 0.56]}
     text = lubfric.plan_study(scene, points=table).explain()
     assert "slide" in text and "percent" not in text.replace("slip_percent", "percent") and "Did you mean" not in text
-    assert "else check the speeds of the surfaces" in text
+    assert "otherwise check the speeds of the surfaces" in text
 
 
 def test_identical_points_are_counted_before_they_are_solved_once():

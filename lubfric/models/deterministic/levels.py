@@ -105,9 +105,9 @@ PART_OF_WORK_LEFT = 0.5
 STRIPS_FOR_SCATTER = 3
 
 CORRECTED_BY_SUMMITS = (
-    "f corrected by {:+.2g} %, because the summits of the sample differ from those of the infinite surface"
+    "f is corrected by {:+.2g} %, because the summits of the sample differ from those of the infinite surface"
 )
-CORRECTED_BY_CELLS = "f corrected by {:+.2g} % for shorter cells, as estimated from its change by the boundary film"
+CORRECTED_BY_CELLS = "f is corrected by {:+.2g} % for shorter cells, estimated from its change by the boundary film"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 

@@ -201,7 +201,7 @@ def moments(
                     break
         if not result.residual <= tolerance:
             name = f"film under moving roughness, step {count} of {step:.3g} s"
-            advice = "shorter cells make the step shorter, and a higher speed the film thicker"
+            advice = "try shorter cells, which shorten the step, or a higher speed, which makes the film thicker"
             cost = work.factorisations
             left = result.residuals
             Report(

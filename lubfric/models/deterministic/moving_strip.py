@@ -364,7 +364,7 @@ def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
     """Return that the first steps in time, so many (``number``), ``forecast`` more work [s] than the ``most`` that is allowed."""
     return (
         f"the roughness moves, and by its first {number} steps in time one strip would take at least {float(f'{forecast:.2g}'):g} s of "
-        f"counted work, more than {most:g} s; numerics.model = 'deterministic' solves it"
+        f"counted work, more than {most:g} s; set numerics.model = 'deterministic' to solve it"
     )
 
 

@@ -51,7 +51,7 @@ SPEED_STEP_GROWTH = 1.5
 # The least step in ln(speed) [-]: a bound. No film of the campaign needs it. A choice: less costs time before a film
 # fails.
 LEAST_SPEED_STEP = 0.05
-FILM_ADVICE = "longer cells may lead there, or a higher speed"
+FILM_ADVICE = "try longer cells or a higher speed"
 
 # Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the campaign needs
 # it; an oil has .05 to .1. A choice: a film of it converges more easily.
@@ -159,7 +159,7 @@ def solve_point(
             f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} "
             "steps in time",
         ),
-        advice=f"tried in {spent}, with the residual left: {ways}; {FILM_ADVICE}",
+        advice=f"starts that were tried in {spent}, each with its remaining residual: {ways}; {FILM_ADVICE}",
     )
     return returned(assemble(result.at, report))
 

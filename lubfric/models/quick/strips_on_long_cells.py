@@ -75,7 +75,7 @@ LEAST_TOLERANCE = 0.1
 # asperity load. Where both are alike, it is one of the film. A choice: less divides by differences near 0.
 LEAST_CONTRAST = 0.05
 
-NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
+NARROWER = "set numerics.model = 'deterministic' to reduce the error of f; 'lubfric info' estimates the cost"
 CELLS_IN_MODEL_ERROR = "the error of the long cells (cells longer than those of the deterministic model) is in the model-form error, not in the numerical one"
 BY_CELLS = "the long cells of the quick model, whose error is calibrated on {} contacts"
 

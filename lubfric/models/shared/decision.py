@@ -68,6 +68,6 @@ class Decision(Renamed):
             return ""
         text = f"{self.strips} strip{'s' if self.strips > 1 else ''} of {self.shape[0]} x {self.shape[1]} cells in all"
         if self.coarsening == (1, 1):
-            return f"{text}, the map's own"
+            return f"{text}, as long as those of the map"
         fx, fy = self.coarsening
-        return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({percent(self.change_by_cells)})"
+        return f"{text}, each as long as {fx} x {fy} cells of the map; f is corrected for this ({percent(self.change_by_cells)})"
