@@ -286,4 +286,6 @@ def _interval_in_words(columns: dict[str, np.ndarray]) -> str:
     f = columns["coefficient"]
     size = np.where(f == 0, np.nan, np.abs(f))
     down, up = (float(np.nanmedian(np.abs(end - f) / size)) for end in (low, high))
-    return f"95 % interval of a point (median): -{percent(down)}, +{percent(up)}"
+    count = int(np.isfinite(low).sum())
+    some = "" if count == low.size else f"; known at {count} of {low.size}"
+    return f"95 % interval of a point (median{some}): -{percent(down)}, +{percent(up)}"

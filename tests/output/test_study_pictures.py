@@ -303,6 +303,13 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
         ends = [segment[:, 1] for segment in axes.collections[0].get_segments()]
         np.testing.assert_allclose(ends, np.transpose([f.min(axis=others)[:, 0], f.max(axis=others)[:, 0]]))
     assert not any(axes.get_title() == "" for axes in panels[:2])
+    low = np.where(np.arange(f.size) < 9, 0.8 * f.ravel(), np.nan).reshape(f.shape)
+    some = {"coefficient": f, "uncertainty_low": low, "uncertainty_high": low + 0.5 * f}
+    options = PictureOptions(width=WIDTHS["column"])
+    study_pictures.plot_study(tmp_path / "study.png", replace(result, columns=result.columns | some), options)
+    shown = drawn[1].legends[0].get_title().get_text()
+    assert shown == f"95 % interval of a point (median; known at 9 of {f.size}): -20 %, +30 %"
+    assert faults(drawn[1]) == []
 
 
 def test_a_sample_at_several_speeds_has_the_effects_of_one_at_one_speed():
