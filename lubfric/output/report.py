@@ -182,10 +182,30 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(scene, curve),
-        "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1]),
+        "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1])
+        + _effects_at_other_points(curve, {what for what, *_ in effects}),
         "details": _details(curve) + _law(law, curve),
         "sources": bullets(curve.cite().splitlines()),
     }
+
+
+def _effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
+    """Return the table of the effects that are not modelled and are not ``listed`` for the operating point, each at the point of
+    the curve where it changes f the most; "" where there are none."""
+    largest: dict[str, tuple[float, UnmodelledEffect, str]] = {}
+    for index, point in enumerate(curve.points):
+        if point is None:
+            continue
+        for effect in point.unmodelled_effects:
+            if effect[0] in listed:
+                continue
+            change = float(np.nan_to_num(abs(effect[1]) * abs(point.coefficient)))
+            if effect[0] not in largest or change > largest[effect[0]][0]:
+                largest[effect[0]] = (change, effect, _place(curve, index))
+    shown = sorted(largest.values(), key=lambda row: -row[0])
+    place = "at other points of the curve, each at that at which it changes f the most"
+    moments = [where.removeprefix("at ") for *_, where in shown]
+    return effects_table([effect for _, effect, _ in shown], place, moments) if shown else ""
 
 
 def status_kind(*, failed: bool, inexact: int) -> str:
@@ -843,7 +863,8 @@ def _history_table(result: TransientResult) -> str:
 def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, moments: Sequence[str] = ()) -> str:
     """Return the table of the effects that are not modelled; ``moments``: of a run in time, when each is largest."""
     if not effects:
-        return "<p>Each known effect changes f by less than numerics.tolerance.</p>"
+        where = place.partition(",")[0]
+        return f"<p>Each known effect changes f {escape(where)} by less than numerics.tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(what))}</td>"

@@ -1,0 +1,38 @@
+"""The effects that a report says are not modelled: those of the operating point, and those of other points alone."""
+
+import re
+
+from scene_text import BODIES_AND_OIL
+
+import lubfric
+from lubfric.models.shared import effect_in_words
+from lubfric.output import main
+
+MOTION = "[motion]\nentrainment_speed = 1e-4\nspeeds = [1e-4, 0.03, 0.3]\n"
+SCENE = BODIES_AND_OIL.replace("= 0.09", "= [0.08, 0.1]") + MOTION
+SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n"
+SCENE += '[numerics]\nsampling = "patch"\nmodel = "deterministic"\ntolerance = 0.05\n'
+
+
+def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_path):
+    """At the operating point nothing changes f; elsewhere the film does. The list of no effects names its place."""
+    (tmp_path / "scene.toml").write_text(SCENE)
+    assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "out"), "--accept"]) == 0
+    page = (tmp_path / "out" / "report.html").read_text()
+    section = page.partition("<h2>Effects not modelled</h2>")[2].partition("<h2>")[0]
+    curve = lubfric.stribeck(lubfric.load_scene(tmp_path / "scene.toml").with_(numerics={"accept": True}))
+    own, *others = curve.points
+    assert own.unmodelled_effects == () and "changes f at U = 0.0001 m/s by less than numerics.tolerance" in section
+    largest = {}
+    for point in others:
+        for what, change, advice in point.unmodelled_effects:
+            sizes = abs(change) * point.coefficient
+            largest[what] = max(
+                largest.get(what, (0.0,)), (sizes, point.speed, effect_in_words((what, change, advice)))
+            )
+    assert largest
+    rows = [re.sub(r"<[^>]+>", "|", row) for row in re.findall(r"<tr>(.*?)</tr>", section)[1:]]
+    assert len(rows) == len(largest)
+    for what, (_, speed, words) in largest.items():
+        (row,) = [row for row in rows if what[1:20] in row]
+        assert f"|U = {speed:.4g} m/s|" in row and words.partition(": f ")[2].partition(";")[0] in row
