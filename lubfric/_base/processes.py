@@ -71,9 +71,9 @@ def cluster(address: str) -> Iterator[Any]:
     try:
         with socket.create_connection((host, port), timeout=CONNECT) as connection:
             if not address.startswith(CLIENT_FIRST) and not connection.recv(1):  # a scheduler speaks first
-                raise OSError("the connection was closed without a word")
+                raise OSError("the connection was closed without an answer")
     except TimeoutError:
-        raise _no_scheduler(address, f"nothing came in {CONNECT:g} s") from None
+        raise _no_scheduler(address, f"no answer came in {CONNECT:g} s") from None
     except OSError as error:
         raise _no_scheduler(address, str(error)) from None
     client = _client(distributed, address)
@@ -220,7 +220,7 @@ def checked_workers(workers: int, executor: Any) -> int:
     """Return the number of processes; raises `InputError` for a wrong one, and for one together with an ``executor``."""
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     if workers > 1 and executor is not None:
-        raise InputError(" and an executor are given", "workers", "one of both")
+        raise InputError(" and an executor are given", "workers", "one of the two")
     return workers
 
 

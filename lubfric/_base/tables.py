@@ -151,7 +151,9 @@ def read_columns(
         heading = headings[places[0]]
         given = _unit_of_column(path, heading, name, None if stated is None else stated[places[0]])
         if given is None and unit in must_say:
-            raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}], or ask for that")
+            raise InputError(
+                f"column {heading!r} of {path} names no unit; write {heading} [{unit}] in the file or in the command"
+            )
         if given is None:
             _refuse_bare_unit(path, heading, unit)
         word = spelled(given or "")

@@ -142,7 +142,7 @@ def _take_options_of_file(arguments: Namespace) -> None:
     words = " ".join(f"--{name}={value}" for name, value in options.items())
     given = [name for name in ("ratios", "speeds", "fields") if getattr(arguments, name) is not None]
     if given:
-        say(f"{arguments.scene} holds {words}; --{given[0]} of the command takes their place")
+        say(f"{arguments.scene} contains {words}; --{given[0]} of the command replaces them")
         return
     say(f"options of {arguments.scene}: {words}")
     for name, value in options.items():

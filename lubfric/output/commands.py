@@ -244,7 +244,7 @@ def run_begun(
         begin_beside(figures.make_ready)  # while it is solved
         if folder.has_other_states and not folder.unfinished.is_dir():
             say(
-                f"{folder.unfinished.parent} holds saved states of an interrupted run of another scene or version of "
+                f"{folder.unfinished.parent} contains saved states of an interrupted run of another scene or version of "
                 "lubfric; they are not used, and this run starts from its beginning"
             )
         yield folder, prepared, estimate

@@ -134,7 +134,7 @@ def fit_answer(result: FitResult) -> list[str]:
     ]
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]
-    sentences.append("The intervals hold the scatter of the data and the numerical error of f.")
+    sentences.append("The intervals contain the scatter of the data and the numerical error of f.")
     return [*sentences, *(sentence(text) for text in result.not_in_intervals)]
 
 

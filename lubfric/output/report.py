@@ -992,7 +992,7 @@ def _made(record: dict[str, Any]) -> str:
     ]
     lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
     note = (
-        f"<p>resolved.toml holds the scene with all defaults. In its folder, <code>{escape(record['command'])}</code> "
+        f"<p>resolved.toml contains the scene with all defaults. In its folder, <code>{escape(record['command'])}</code> "
         "computes the same numbers with the versions and height maps below.</p>"
     )
     return note + table(("", ""), lines)

@@ -108,7 +108,7 @@ class ImposedFilm:
         """Return the contact by ``iterate`` from a first pressure."""
         if self.is_separated:
             zero = np.zeros_like(self.problem.gap0)
-            note = "the film clears the surface: no contact"
+            note = "the film is thicker than the roughness, so there is no contact"
             solver = "none"
             search = self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
         else:

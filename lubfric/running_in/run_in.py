@@ -266,7 +266,7 @@ def run_in(
         wear=wear,
     )
     if ended:
-        raise WorkLimitError(limit, result=result, reached=f"Until then {ended}; the result of this error has them")
+        raise WorkLimitError(limit, result=result, reached=f"Until then {ended}; .result of this error contains them")
     return result
 
 

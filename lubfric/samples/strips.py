@@ -250,9 +250,9 @@ class MeasuredStrips(Sample):
         lengths = (1e6 * count * self.surface.spacing[1] for count in (rows, len(windows) * self.surface.shape[1]))
         used, measured = (f"{length:.5g} µm" for length in lengths)
         note = (
-            f"{counted(len(windows), 'windows')} of {shape}, joined along y to {used} of their {measured}: so that no edge carries load, "
-            f"each passes into the next one, and the last into the first, over {self._blend} cells; of the rest a whole multiple of "
-            f"{WINDOW_ROWS_MULTIPLE} cells of {1e6 * self.cells.spacing[1]:.3g} µm is used"
+            f"{counted(len(windows), 'windows')} of {shape}, joined along y; {used} of their {measured} are used: each window passes "
+            f"smoothly into the next one, and the last into the first, over {self._blend} cells, so that no edge carries load, and the "
+            f"length is a whole multiple of {WINDOW_ROWS_MULTIPLE} cells of {1e6 * self.cells.spacing[1]:.3g} µm"
         )
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 

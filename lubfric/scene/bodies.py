@@ -59,7 +59,7 @@ class FrictionTable:
             object.__setattr__(self, name, tuple(numbers.tolist()))
         rising = all(a < b for a, b in zip(self.at, self.at[1:]))
         if not rising or not 2 <= len(self.at) == len(self.values) or min(*self.at, *self.values) < 0:
-            allowed = "two lists of two numbers or more, as long as each other, none below 0, the first rising"
+            allowed = "two lists of the same length, at least two numbers each, none below 0, the first list rising"
             raise InputError(f" = {self.values} at {self.at}, a table over {self.over}", BOUNDARY_FRICTION_KEY, allowed)
 
     def __call__(self, at: float) -> float:

@@ -97,8 +97,8 @@ class Scene(Shown):
             raise InputError(
                 message,
                 "transient",
-                recommendation="give a flooded inlet or lubricant.inlet_length: the one with which the scene without "
-                "[transient] has the film that arrives as its full_load_film, or half the height of a piston ring",
+                recommendation="omit it for a flooded inlet, or give lubricant.inlet_length: half the height of a piston ring, or "
+                "the length at which full_load_film of the scene without [transient] is the arriving film",
             )
         if length is not None and length <= half_width:
             message = f" = {length:g} m lies inside the dry contact, where no film begins"

@@ -135,7 +135,7 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], np.nda
     """Return the columns of a study, and of each point the magnitude of a ``quantity`` and the ends (2, n) of its interval."""
     validate.choice("quantity", quantity, INTERVAL_COLUMNS)
     if result.chosen:
-        raise InputError("curves that chose their speeds are compared at none of them; give speeds to compare them")
+        raise InputError("curves that choose their own speeds cannot be compared; give the same speeds to all")
     columns = columns_of_study(result)
     unknown = np.full(result.status.size, np.nan)
     low, high = (columns.get(name, unknown) for name in INTERVAL_COLUMNS[quantity])

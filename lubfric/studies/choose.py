@@ -221,7 +221,9 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     """
     if any(u < 0 for u in scene.motion.speeds):
         ways = "give motion.speed_range, or speeds in m/s"
-        raise InputError(" = 'auto' runs forwards, and motion.speeds backwards", "speeds", recommendation=ways)
+        raise InputError(
+            " = 'auto' chooses speeds above 0, and motion.speeds are below 0", "speeds", recommendation=ways
+        )
     speeds = sorted({u for u in scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]

@@ -189,7 +189,7 @@ def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str
     elif plan.chooses_speeds:
         lines.append(f"      about {EXPECTED_SPEEDS} speeds that each curve chooses")
     if plan.scene.transient is not None:
-        lines.append("  steady   every point; what changes in time in the scene ([transient]) is ignored")
+        lines.append("  steady   every point; the histories of the scene ([transient]) are ignored")
     conditions = operating_keys(plan)
     designs = design_keys(plan)
     if conditions and designs and not plan.chooses_speeds:

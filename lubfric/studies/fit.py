@@ -241,7 +241,7 @@ def _start(scene: Scene, bounds: dict[str, Between], start: dict[str, float]) ->
     """Return where the search begins, as positions between the bounds."""
     for key in start:
         if key not in bounds:
-            raise InputError(f"start holds {key!r}, which is not a parameter; allowed: {', '.join(bounds)}")
+            raise InputError(f"start contains {key!r}, which is not a parameter; allowed: {', '.join(bounds)}")
     unit = np.full(len(bounds), 0.5)
     for i, (key, ends) in enumerate(bounds.items()):
         section, _, name = key.partition(".")

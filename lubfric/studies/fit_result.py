@@ -306,7 +306,7 @@ class FitResult(Renamed, Shown):
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""
-            return "not in the intervals: what another sample of the surface would give, which is not known"
+            return "not in the intervals: the effect of another sample of the surface, which is not known"
         moves = self.moved_by_surface
         reaches = dict(zip(self.parameters, self._reach * np.abs(self._slopes)))
         moves = {key: move for key, move in moves.items() if key not in self.profiles}

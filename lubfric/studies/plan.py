@@ -281,7 +281,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         if SPEED in keys:
             if points is not None or "points" in table:
                 message = f"[sample] of {path.name} has speeds, and points has them too"
-                raise InputError(message, recommendation="give them in one of both")
+                raise InputError(message, recommendation="give them in one of the two")
             operating_points = {key: list(column) for key, column in zip(keys, zip(*drawn))}
         else:
             _add(vary, keys if len(keys) > 1 else keys[0], drawn)

@@ -89,8 +89,8 @@ class Store(RecordStore):
             others = len(self.faults) - 1
             if self.faults:
                 more = f", as {others} other{'s' if others > 1 else ''} in that folder," if others else ""
-                solve = "they are" if others else "it is"
-                warnings.warn(f"{self.faults[0]}{more} and does not count: {solve} to be solved again", stacklevel=3)
+                solve = "their points are" if others else "its point is"
+                warnings.warn(f"{self.faults[0]}{more} and is not used: {solve} solved again", stacklevel=3)
             self.faults.clear()
 
     def add(self, key: str, outcome: Any, *, sync: bool = False) -> None:
@@ -115,7 +115,7 @@ class Store(RecordStore):
         except (ValueError, OutputError):
             self.faults.append(f"{self._path(key)} {fault}")
             if not self.gathers_faults:
-                warnings.warn(f"{self.faults.pop()} and does not count: it is to be solved again", stacklevel=2)
+                warnings.warn(f"{self.faults.pop()} and is not used: its point is solved again", stacklevel=2)
             return None
         return _error(record) if isinstance(record, Failure) else record
 

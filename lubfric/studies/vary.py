@@ -174,7 +174,7 @@ def check_key(
         ways = (
             "give speeds = [...] in m/s, or a column speed of operating points (a fit takes those of the measurement)"
         )
-        message = f"{what}: {key!r} is what a curve is over"
+        message = f"{what}: {key!r} is the axis of a curve"
         raise InputError(message, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
     if not isinstance(key, str) or section not in sections:
         _refuse_key(what, scene, key, sections)

@@ -119,8 +119,8 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
         heights = core / reached[0] + peaks + dales
         heights = heights - heights.mean()
     raise InputError(
-        f" = {honing.sk:g}, {honing.spk:g} and {honing.svk:g} m are not reached together on this map: "
-        f"{curve.sk:.3g}, {curve.spk:.3g} and {curve.svk:.3g} m are",
+        f" = {honing.sk:g}, {honing.spk:g} and {honing.svk:g} m cannot be reached together on this map, which has "
+        f"{curve.sk:.3g}, {curve.spk:.3g} and {curve.svk:.3g} m",
         "sk, spk and svk",
         recommendation="give a larger map, or a Spk and a Svk nearer to Sk",
     )

@@ -211,8 +211,8 @@ def _masked(
     """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
     heights. ``unread_sizes``: lines that may state a missing spacing."""
     if spacing is None:
-        unread = f"{' and '.join(unread_sizes)} may state it, without a name and a unit that are known"
-        why = unread if unread_sizes else "the file does not carry it"
+        unread = f"{' and '.join(unread_sizes)} may state it, but without a known name and unit"
+        why = unread if unread_sizes else "the file does not state it"
         why = next((note for note in notes if note.startswith("steps of")), why)
         message = f"spacing of {path.name} is missing: {why}"
         raise InputError(message, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
@@ -250,7 +250,7 @@ def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surfac
         )
         advised = advised_form(left)
         if left[advised] < BETTER * left[form]:
-            words += f"; a form is left in it? give form = {advised!r}"
+            words += f"; if a form is left in the map, give form = {advised!r}"
         surface = replace(surface, notes=(*surface.notes, f"Sq {words}", *_unusual_height(surface.sq)))
     surface = surface.fill() if fill else surface
     return _with_outliers_noted(surface) if fill and level else surface
@@ -262,7 +262,7 @@ def _unusual_height(sq: float) -> tuple[str, ...]:
     if sq == 0 or low <= sq <= high:
         return ()
     return (
-        f"Sq {worded(sq, 'm')} is unusual, machined surfaces have {worded(low, 'm')} to {worded(high, 'm')}: check the unit of the heights",
+        f"Sq {worded(sq, 'm')} is unusual (machined surfaces: {worded(low, 'm')} to {worded(high, 'm')}); check the unit of the heights",
     )
 
 
@@ -272,7 +272,7 @@ def _with_outliers_noted(surface: Surface) -> Surface:
     if not count:
         return surface
     stand = "1 isolated point stands above its" if count == 1 else f"{count} isolated points stand above their"
-    note = f"{stand} neighbours: surface.outliers of a scene states what to do with them (docs/inputs.md)"
+    note = f"{stand} neighbours; give surface.outliers in a scene to mask or keep them (docs/inputs.md)"
     return replace(surface, notes=(*surface.notes, note))
 
 

@@ -30,7 +30,7 @@ def read_sdf(
     """
     name = f"path = {str(path)!r}"
     if units is not None:
-        raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own (m)", recommendation="omit it")
+        raise InputError(f"unit = {units[2]!r} is given, and {name} states its own (m)", recommendation="omit it")
     records = text.split("*")
     if len(records) < 3:
         message = f"{name} is cut off: it has {len(records) - 1} of the marks '*' that end its header and its heights"

@@ -611,7 +611,7 @@ def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
             raise _wrong(path, number, text, UNCLEAR)
         if numbers and not _is_heading(path, number, text):
             doubtful.append((number, text, numbers))
-    raise InputError(f"path = {str(path)!r} holds no numbers")
+    raise InputError(f"path = {str(path)!r} contains no numbers")
 
 
 def _is_heading(path: Path, number: int, text: str) -> bool:

@@ -64,7 +64,7 @@ def read_zygo(
         notes: tuple[str, ...] = (f"points of Zygo, heights in {units[2]} as given",)
     else:
         if units is not None:
-            raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", recommendation="omit it")
+            raise InputError(f"unit = {units[2]!r} is given, and {name} states its own", recommendation="omit it")
         waves = COUNTS_OF_A_WAVE.get(resolution)
         scale = optics[1] * optics[2] * optics[4]
         if waves is None or not scale > 0:

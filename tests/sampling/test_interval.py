@@ -131,7 +131,7 @@ def test_the_note_on_windows_says_how_much_of_the_map_is_used_and_why(tmp_path):
     (count, used, measured) = re.match(r"(\d+) windows? .* to ([\d.]+) µm of their ([\d.]+) µm", note).groups()
     assert float(used) == pytest.approx(1e6 * surface.size[1], rel=1e-3)
     assert float(measured) == pytest.approx(int(count) * 400 * 0.9, rel=1e-3) and float(used) < 0.99 * float(measured)
-    assert "each passes into the next one" in note
+    assert "each window passes smoothly into the next one" in note
 
 
 def test_a_map_that_differs_from_place_to_place_is_less_sure(tmp_path):

@@ -146,7 +146,7 @@ def test_a_server_that_says_nothing_is_no_scheduler(monkeypatch):
     monkeypatch.setattr("distributed.Client", None)
     monkeypatch.setattr("lubfric._base.processes.CONNECT", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as silent:
-        with pytest.raises(lubfric.InputError, match="nothing came in 0.2 s"):
+        with pytest.raises(lubfric.InputError, match="no answer came in 0.2 s"):
             with lubfric.studies.cluster("tcp://127.0.0.1:%d" % silent.getsockname()[1]):
                 pass
 

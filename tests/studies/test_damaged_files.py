@@ -218,7 +218,7 @@ def test_a_study_goes_on_beside_what_is_damaged(stores, tmp_path, kind):
         path.symlink_to(path.name)
     else:
         path.mkdir()
-    with pytest.warns(UserWarning, match="damaged and does not count"):
+    with pytest.warns(UserWarning, match="damaged and is not used"):
         assert lubfric.open_study(tmp_path / "s").missing == 1
     if kind == "folder":  # which lubfric does not remove
         with pytest.warns(UserWarning), pytest.raises(lubfric.OutputError, match=f"{path.name} was not written"):

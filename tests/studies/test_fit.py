@@ -314,7 +314,11 @@ def test_headings_of_any_length_are_read_in_no_time(tmp_path, heading):
     "text, names, words",
     [
         ("U [m/s],mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.' .did you mean"),
-        ("U,mu\n1,0.1\n", {"speed": "U", "coefficient": "mu"}, "names no unit; write U .m/s., or ask for that"),
+        (
+            "U,mu\n1,0.1\n",
+            {"speed": "U", "coefficient": "mu"},
+            "names no unit; write U .m/s. in the file or in the command",
+        ),
         ("a title\nU,mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.'"),
         ("slip %,mu\n1,0.1\n", {"slide_roll_ratio": "slip %", "coefficient": "mu"}, "names % without brackets"),
         ("U [rpm],mu\n1,0.1\n", {"speed": "U [rpm]", "coefficient": "mu"}, "'rpm' is not known"),
@@ -337,7 +341,7 @@ def test_bad_files(tmp_path, text, names, words):
         ({}, "must be a dict"),
         ({"lubricant.viscosity": 0.1}, "a pair"),
         ({"numerics.tolerance": (0.1, 0.2)}, "unknown key 'numerics' in parameters"),
-        ({"motion.entrainment_speed": (0.1, 0.2)}, "is what a curve is over"),
+        ({"motion.entrainment_speed": (0.1, 0.2)}, "is the axis of a curve"),
         ({"bodies.load": (-1.0, 2.0)}, "bodies.load"),
         ({"lubricant.temperature": (300.0, 350.0)}, "does not change a viscosity"),
     ],

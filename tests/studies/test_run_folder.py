@@ -301,7 +301,7 @@ def test_another_unfinished_run_in_the_folder_is_kept_and_named(tmp_path, whole,
     assert len(list((out / "unfinished").iterdir())) == 1
     note = "keeps the points of an interrupted run of other inputs"
     said = capsys.readouterr().err
-    unused = "holds saved states of an interrupted run of another scene or version of lubfric; they are not used"
+    unused = "contains saved states of an interrupted run of another scene or version of lubfric; they are not used"
     assert said.count(f"{out / 'unfinished'} {unused}") == 1 and f"{out / 'unfinished'} {note}" in said
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0
     said = capsys.readouterr().err

@@ -137,7 +137,7 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
     store = Store(tmp_path)
     store.add("a", (1,))
     write_checked(*(tmp_path / "points").iterdir(), b"a\n" + content)
-    with pytest.warns(UserWarning, match="another version of lubfric and does not count"):
+    with pytest.warns(UserWarning, match="another version of lubfric and is not used"):
         assert store.known(["a", "b"]) == {}
 
 
@@ -148,10 +148,10 @@ def test_a_record_that_was_renamed_does_not_count(tmp_path):
     store.add("b", (2,))
     for old, new in (("a", "c"), ("b", "a"), ("c", "b")):
         (tmp_path / "points" / f"{old}.bin").rename(tmp_path / "points" / f"{new}.bin")
-    with pytest.warns(UserWarning, match="damaged and does not count"):
+    with pytest.warns(UserWarning, match="damaged and is not used"):
         assert store.known(["a", "b"]) == {}
     store.add("a", (1,))
-    with pytest.warns(UserWarning, match="damaged and does not count"):
+    with pytest.warns(UserWarning, match="damaged and is not used"):
         assert store.known(["a", "b"]) == {"a": (1,)}
 
 

@@ -303,7 +303,7 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
         assert words in text, text
     assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
     moving = SCENE.with_(transient=lubfric.Transient(duration=0.1))
-    assert "[transient]) is ignored" in lubfric.plan_study(moving, {}, [0.1]).explain()
+    assert "[transient]) are ignored" in lubfric.plan_study(moving, {}, [0.1]).explain()
     assert "about 12 speeds that each curve chooses" in lubfric.plan_study(SCENE, {}, "auto").explain()
 
 
@@ -405,7 +405,7 @@ def test_records_that_do_not_count_are_one_warning(tmp_path):
         again = lubfric.study(SCENE, {"bodies.load": [3.0, 4.0, 5.0]}, [0.3], store=tmp_path)
     assert len(damaged) == 3 and again.failed == again.missing == 0
     (text,) = (str(each.message) for each in caught)
-    assert "is damaged, as 2 others in that folder, and does not count: they are to be solved again" in text
+    assert "is damaged, as 2 others in that folder, and is not used: their points are solved again" in text
 
 
 @pytest.mark.parametrize("count, jobs", [(4, 4), (128, 64)])

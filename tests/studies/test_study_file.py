@@ -66,7 +66,7 @@ def test_a_sample_with_speeds_has_operating_points(tmp_path):
     with pytest.raises(lubfric.InputError, match=r"\[sample\] of study.toml has speeds, and points has them too"):
         load_study(tmp_path / "study.toml")
     with pytest.raises(
-        lubfric.InputError, match="'speed' is what a curve is over; .* a column speed of operating points"
+        lubfric.InputError, match="'speed' is the axis of a curve; .* a column speed of operating points"
     ):
         plan_study(PAPER, {"speed": [0.1]})
 

@@ -39,7 +39,7 @@ def test_lift_off_has_the_direction_of_the_curve(model, curve):
     assert back.lift_off_range == pytest.approx((-high, -low)) and high / low == pytest.approx(10**0.5)
     assert np.isnan(curve.lift_off) and np.isnan(back.lift_off)
     assert back.at(-np.sqrt(low * high)) == pytest.approx(curve.at(np.sqrt(low * high)), rel=0.05)
-    with pytest.raises(lubfric.InputError, match="runs forwards"):
+    with pytest.raises(lubfric.InputError, match="chooses speeds above 0"):
         lubfric.stribeck(SCENE.with_(motion={"speeds": (-1.0, -0.01)}), "auto")
 
 

@@ -167,7 +167,7 @@ REFUSED = {  # name: (file, lines of the heights, what the caller gives, words o
     "ISO, half a point": ("a.sdf", lambda z: sdf(z, NumPoints=48.5), {}, "whole number"),
     "ISO, stated twice": ("a.sdf", lambda z: [*sdf(z)[:2], "Xscale = 3e-6", *sdf(z)[2:]], {}, "states Xscale twice"),
     "ISO, a word": ("a.sdf", spoilt(sdf, "BAD", "bat"), {}, "BAD where unmeasured"),
-    "ISO, a unit given": ("a.sdf", sdf, {"unit": "um"}, "carries its own"),
+    "ISO, a unit given": ("a.sdf", sdf, {"unit": "um"}, "states its own"),
     "ISO, another spacing": ("a.sdf", sdf, {"spacing": 3e-6}, "states 1e-06, 2e-06 m"),
     "ISO, a profile": (
         "a.sdf",

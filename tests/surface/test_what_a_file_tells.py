@@ -116,7 +116,7 @@ def test_a_spacing_that_a_line_may_state_is_not_called_absent(tmp_path):
     with pytest.raises(InputError, match="is missing: line 1 'Rasterweite X;0,8 µm' may state it"):
         read_surface(tmp_path / "a.csv", unit="nm", **RAW)
     (tmp_path / "a.csv").write_text("Probe A\n" + 4 * "1;2;3;4;6;5\n")
-    with pytest.raises(InputError, match="is missing: the file does not carry it"):
+    with pytest.raises(InputError, match="is missing: the file does not state it"):
         read_surface(tmp_path / "a.csv", unit="nm", **RAW)
 
 

@@ -85,7 +85,7 @@ def test_what_a_file_does_not_state_is_requested(heights, tmp_path):
     with pytest.raises(lubfric.InputError, match="spacing of a.xyz is missing"):
         read(tmp_path, "a.xyz", uncalibrated, unit="um")
     assert read(tmp_path, "a.xyz", uncalibrated, unit="um", spacing=2e-6).spacing == (2e-6, 2e-6)
-    with pytest.raises(lubfric.InputError, match="carries its own"):
+    with pytest.raises(lubfric.InputError, match="states its own"):
         read(tmp_path, "a.asc", phases(heights), unit="nm")
     with pytest.raises(lubfric.InputError, match="states 1.2e-06"):
         read(tmp_path, "a.xyz", lines, unit="um", spacing=1e-6)
