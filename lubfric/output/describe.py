@@ -255,7 +255,7 @@ def estimate_scene(
         rows = [effect_in_words(effect) for effect in effects]
     changes = [
         f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
-        "ratios that the result may have; the report has the changes of the result.",
+        "ratios that the result may have; the report states the changes for the solved ratio.",
         *rows,
     ]
     sections = {

@@ -134,7 +134,7 @@ def _lubricant(scene: Scene) -> list[str]:
     known = oil.heats and oil.temperature_coefficient is not None
     heat = "isothermal, because the temperature coefficient of the viscosity is not given"
     if known:
-        heat = "in film and inlet, where it changes f by more than its share of the tolerance"
+        heat = "included in film and inlet where it changes f by more than its share of the tolerance"
         heat = "isothermal (numerics.heat = 'off')" if scene.numerics.heat == "off" else heat
     return [*rows, f"heat: {heat}"]
 

@@ -513,8 +513,8 @@ def _budget(
     if unknown:
         combined = "the interval of f combines those that are known"
     if unknown - {"model-form"}:
-        combined = "one of them is not known, so that f has no interval"
-    if is_cut:
+        combined = "one of them is not known, so f has no interval"
+    elif is_cut:
         combined += ", within the limits stated below"
     return (
         f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; {combined}.</p>"
@@ -799,11 +799,11 @@ def _history_budget(result: TransientResult) -> str:
     notes = [
         "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at most "
         "transient.tolerance, is not included",
-        "The errors have the same sign at all times: the interval of a mean is the mean of the intervals",
-        *(f"Not included: {text}" for text in result.not_in),
+        "The errors keep their sign at all times, so the interval of a mean is the mean of the intervals",
+        *result.not_in,
     ]
     if math.isfinite(values["model-form"]):
-        notes.insert(1, "Model-form: as in steady motion at the same film, asperity load ratio and heat")
+        notes.insert(1, "The model-form error is that of steady motion at the same film, asperity load ratio and heat")
     return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
 
 

@@ -74,7 +74,7 @@ RUN_FILES = (
     RunFile(
         name="contact.png",
         runs=("stribeck",),
-        caption="The contact at one speed. The cells of this picture may not be those of f and of the warnings",
+        caption="The contact at one speed. This picture may use other cells than f and the warnings",
         is_drawn_again=True,
     ),
     RunFile(name="contact_at_*.png", is_drawn_again=True),

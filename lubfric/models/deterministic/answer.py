@@ -428,15 +428,19 @@ def _words_of_levels(levels: Levels) -> str:
     count = len(levels.pairs)
     pieces = levels.pieces
     strips = f"{count} strip{'s' if count > 1 else ''} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
+    if levels.control_strips:
+        strips += f" of a line of {levels.control_strips} strips"
     if pieces:
         of_strips = pieces[0].on_cells_of_strips.result.spacing
         times = round(max(long / short for long, short in zip(of_strips, pieces[0].on_shortest_cells.result.spacing)))
-        strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
+        strips += (
+            f", with the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
+        )
     if levels.shortest:
-        strips += f", of cells {2 * times} times as short on a shorter one"
+        strips += f" and of cells {2 * times} times as short on a shorter piece"
     if not levels.control_strips:
         return f"solved together with the contact on {strips}"
-    return f"solved together with the contact: the difference from Eq. (8) on {strips}, of a line of {levels.control_strips}"
+    return f"solved together with the contact: the difference from Eq. (8) on {strips}"
 
 
 def _division(scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]) -> str:
@@ -444,7 +448,7 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     strips."""
     thin, saturated = (100 * numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
     touching = 100 * mean(result.split.touching / result.load for result in results)
-    text = f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %)"
+    text = f"load on gaps below the boundary film {thin:.3g} % (on touching cells {touching:.3g} %)"
     if saturated > 0:
         of = "asperity" if scene.lubricant.has_unlimited_stress else "film"
         text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"

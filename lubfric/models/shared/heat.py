@@ -120,13 +120,13 @@ class Heat:
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
-        inlet = f"not included, it makes the film {100 * (1 - self.inlet.factor):.2g} % thinner"
+        inlet = f"neglected; it would make the film {100 * (1 - self.inlet.factor):.2g} % thinner"
         if self.is_used:
             inlet = (
                 f"it multiplies the film by {self.inlet.factor:.3g} (Gupta et al.; by Wilson and Sheu "
                 f"{self.inlet.other:.3g})"
             )
-        inside = f"not included, it changes f by at most {100 * self.change:.2g} % ({limit} allowed)"
+        inside = f"neglected; it would change f by at most {100 * self.change:.2g} % (limit: {limit})"
         if self.heated is not None:
             inside = (
                 f"it changes f by {-100 * self.change:+z.2g} % (surfaces up to {self.flash:.2g} K and film up to "
