@@ -97,7 +97,7 @@ class Scene(Shown):
             raise InputError(
                 message,
                 "transient",
-                recommendation="omit it for a flooded inlet, or give lubricant.inlet_length: half the height of a piston ring, or "
+                recommendation="omit inlet_film for a flooded inlet, or give lubricant.inlet_length: half the height of a piston ring, or "
                 "the length at which full_load_film of the scene without [transient] is the arriving film",
             )
         if length is not None and length <= half_width:

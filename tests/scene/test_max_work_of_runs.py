@@ -80,7 +80,7 @@ def test_a_run_in_time_that_cannot_begin_says_so():
 def test_running_in_ends_with_the_passes_so_far():
     full, work = counted(lambda: lubfric.run_in(SOFT))
     assert full.deepest.size > 2
-    with pytest.raises(WorkLimitError, match="passes are done; the result of this error has them") as caught:
+    with pytest.raises(WorkLimitError, match="passes are done; .result of this error contains them") as caught:
         lubfric.run_in(SOFT.with_(numerics={"max_work": 0.7 * work}))
     part = caught.value.result
     passes = part.deepest.size
