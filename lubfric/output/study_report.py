@@ -622,10 +622,10 @@ def _main_effects_line(result: StudyResult) -> list[str]:
     effects = main_effects(result)
     if not effects:
         return []
-    trends = {-1: ", on average f falls with it", 0: "", 1: ", on average f rises with it"}
+    trends = {-1: " (on average f falls with it)", 0: "", 1: " (on average f rises with it)"}
     words = [f"{name_of(key)} {percent(effect.share)}{trends[effect.slope]}" for key, effect in effects.items()]
     return [
-        f"Parts of the variance of ln f over the points, by each input alone: {'; '.join(words)}. The remaining part comes "
+        f"Part of the variance of ln f that each input alone explains: {'; '.join(words)}. The remaining part comes "
         "from combinations of inputs."
     ]
 

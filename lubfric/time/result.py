@@ -146,7 +146,7 @@ class TransientResult(Renamed, Shown):
         if any(severe):
             return (
                 f"Refused: all {count} outputs to t = {end} are solved, but at {sum(severe)} of them an assumption "
-                "fails so far that f has no meaning (see the warnings)."
+                "is violated so strongly that f has no meaning (see the warnings)."
             )
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
 
@@ -168,7 +168,7 @@ class TransientResult(Renamed, Shown):
             "The run is not periodic: its end has the speeds and the load of its first output, but an asperity load ratio of "
             f"{ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of {worded(float(film[-1]), 'm')} instead of "
             f"{worded(float(film[0]), 'm')}. So the mean contains the start of the run; for the periodic motion, solve two "
-            "periods (transient.duration; repeat = true in a table), and give the first as transient.first_output."
+            "periods (transient.duration; repeat = true in a table), and set transient.first_output to the end of the first."
         )
 
     def average(self) -> TimeAverage:

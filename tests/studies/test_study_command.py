@@ -104,7 +104,7 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
         assert effect.share == pytest.approx(parts[key] / sum(parts.values()), rel=1e-12)
     (line,) = (line for line in study_report.answer_lines(result) if "variance" in line)
     assert (
-        "total load 88 %, on average f falls with it; viscosity at ambient pressure 12 %, on average f rises with it."
+        "total load 88 % (on average f falls with it); viscosity at ambient pressure 12 % (on average f rises with it)."
         in line
     )
     page = study_report.study_page(result, {}, []).decode()
