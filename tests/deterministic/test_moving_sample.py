@@ -313,5 +313,5 @@ def test_a_short_moving_sample_says_of_which_blocks_it_has_too_few(moments, plac
     number = math.prod(blocks)
     plural = "" if number == 1 else "s"
     count = f"{number} nearly independent block{plural} ({blocks[0]} along the motion x {blocks[1]} along y)"
-    assert count in words and f"takes {7 if has_control else 6}" in words and "omit numerics.sampling, or give" in words
+    assert count in words and f"needs {7 if has_control else 6}" in words and "omit numerics.sampling, or give" in words
     assert f"{0.1 * moments:.3g} half-widths" in words and f"{places / 5:.3g} correlation lengths wide" in words
