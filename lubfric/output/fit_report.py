@@ -78,7 +78,7 @@ def fit_page(
                 else "Not known, because the fit does not describe the data.",
             ),
             residuals=bullets(residuals_in_words(result)),
-            warnings=warnings_and_notes(result.validity),
+            warnings=_warnings(result),
             effects=_effects(result),
             about=about,
             speeds=MEASURED_SPEEDS if result.measured.over == studies.SPEED else "",
@@ -135,7 +135,7 @@ def fit_answer(result: FitResult) -> list[str]:
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]
     sentences.append("The intervals contain the scatter of the data and the numerical error of f.")
-    return [*sentences, *(sentence(text) for text in result.not_in_intervals)]
+    return [*sentences, *(sentence(text) for text in (*result.correlations, *result.not_in_intervals))]
 
 
 def _with_interval(result: FitResult, key: str) -> str:
@@ -226,6 +226,13 @@ def residuals_in_words(result: FitResult) -> list[str]:
     return lines
 
 
+def _warnings(result: FitResult) -> str:
+    """Return the warnings of the points, and to which tolerance on f they refer where the fit set one."""
+    of_tolerance = result.tolerance_in_words
+    above = f"<p>{escape(sentence(of_tolerance))}</p>" if of_tolerance and result.validity else ""
+    return above + warnings_and_notes(result.validity)
+
+
 def _effects(result: FitResult) -> str:
     """Return the table of the effects that are not modelled, at the point of the largest f."""
     if not result.points:
@@ -278,12 +285,16 @@ def _method(result: FitResult) -> list[str]:
         if result.starts
         else "The fit began at the start alone, without a search over the bounds."
     )
+    own = percent(result.base.numerics.tolerance)
+    by_noise = (
+        f", set by the fit from the noise of the data (numerics.tolerance: {own})" if result.tolerance_in_words else ""
+    )
     models = ", ".join(dict.fromkeys(point.decision.basis or point.decision.model for point in result.points))
     return [
         f"Bounded least squares of the residuals, computed minus measured f over {scale}, by a trust region.",
         search,
         f"The fitted curve is solved at the fitted values: {models or 'model not known'} "
-        f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f {percent(result.base.numerics.tolerance)}.",
+        f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f {percent(result.tolerance)}{by_noise}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
         "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter without effect on f there "

@@ -129,7 +129,7 @@ def fit(
             if results[-1].describes_data and results[-1].report.converged:
                 break
         lowest = min(results, key=_sum_of_squares)
-        return returned(_followed(coarse, fine, lowest))
+        return returned(replace(_followed(coarse, fine, lowest), base=scene))
 
 
 @with_default_errors
@@ -443,4 +443,5 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         minima=tuple(minima),
         variance=variance,
         points=points,
+        tolerance=curves.tolerance,
     )

@@ -257,10 +257,11 @@ def linear_place(scene: Scene, parameters: dict[str, Between]) -> int | None:
 
 
 def fit_tolerance(scene: Scene, measured: Measured) -> float:
-    """Return the relative tolerance on f that a fit solves to: small compared with the scatter of the data."""
+    """Return the relative tolerance on f that a fit solves to, to two digits: small compared with the scatter of the data."""
     stated = measured.deviation is not None
     scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if stated else USUAL_SCATTER
-    return min(scene.numerics.tolerance, max(SHARE_OF_SCATTER * scatter, TIGHTEST))
+    by_scatter = float(f"{max(SHARE_OF_SCATTER * scatter, TIGHTEST):.2g}")
+    return min(scene.numerics.tolerance, by_scatter)
 
 
 def coarse_scene(scene: Scene) -> Scene:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,7 +60,9 @@ class FitResult(Renamed, Shown):
     ----------
     values : the parameters found, {"section.key": value}
     deviations : their standard deviations, by key
-    scene : the scene with the values put in
+    base : the scene that was fitted, with its own numerics
+    scene : ``base`` with the values put in
+    tolerance : relative tolerance on f that the fit solved to: that of ``base``, or a smaller one by the noise of the data
     predicted : f at the measured points, (n,)
     unit : the parameters as positions between their bounds, 0 to 1, (p,)
     unit_covariance : covariance of ``unit``, (p, p)
@@ -98,6 +101,7 @@ class FitResult(Renamed, Shown):
     variance: float = math.nan
     profiles: dict[str, Profile] = field(default_factory=dict)
     points: tuple[FrictionResult, ...] = ()
+    tolerance: float = math.nan
 
     @property
     def values(self) -> dict[str, float]:
@@ -277,6 +281,30 @@ class FitResult(Renamed, Shown):
             lines.append(f"fit.json and .other_minima have {more}")
         return tuple(lines)
 
+    @property
+    def correlations(self) -> tuple[str, ...]:
+        """How the parameters are correlated, one text for each pair that the data separate."""
+        texts = []
+        correlation = self.correlation
+        for (i, first), (j, second) in combinations(enumerate(self.parameters), 2):
+            is_known = not {first, second} & {*self.undetermined, *self.profiles}
+            if is_known and abs(correlation[i, j]) <= CORRELATED:
+                texts.append(f"{first} and {second} are correlated by {correlation[i, j]:.2f}")
+        return tuple(texts)
+
+    @property
+    def tolerance_in_words(self) -> str:
+        """That the fit set its own tolerance on f, as text; "" where it is that of the scene."""
+        own = self.base.numerics.tolerance
+        if not self.tolerance < own:
+            return ""
+        of_data = "stated deviations" if self.measured.deviation is not None else "usual scatter"
+        return (
+            f"the fit solved f to a tolerance of {percent(self.tolerance)}, which it set from the noise of the data (their {of_data}); "
+            f"the scene keeps its numerics.tolerance of {percent(own)}, and where a warning names numerics.tolerance, that of the "
+            "fit is meant"
+        )
+
     def _one_sided(self, key: str) -> str:
         """Return in a sentence that the data do not determine a parameter on one side, where its interval ends at a bound."""
         (side,) = self.undetermined_sides[key]
@@ -336,7 +364,9 @@ class FitResult(Renamed, Shown):
         lines.append(f"  root mean square deviation of the points from the fit: {scatter}")
         if self.tests is not None and self.tests.note:
             lines.append(f"  {self.tests.note}")
-        warnings = (*self.identifiability, *self.not_in_intervals, *self.validity)
+        correlations = self.correlations if self.describes_data else ()
+        of_tolerance = filter(None, [self.tolerance_in_words])
+        warnings = (*correlations, *self.identifiability, *self.not_in_intervals, *of_tolerance, *self.validity)
         return "\n".join([*lines, *(f"  {text}" for text in warnings)])
 
     def _facts(self) -> dict[str, str]:

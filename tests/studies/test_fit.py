@@ -105,6 +105,30 @@ def test_independent_data_of_eyring_are_found_within_their_intervals():
     assert "do not contain rolling friction" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
 
 
+def test_the_correlation_of_two_parameters_is_reported_in_a_sentence(fitted):
+    (first, second) = fitted.parameters
+    number = fitted.covariance[0, 1] / np.prod(list(fitted.deviations.values()))
+    assert 0.01 < abs(number) < 0.9
+    assert f"  {first} and {second} are correlated by {number:.2f}\n" in fitted.explain()
+
+
+def test_the_tolerance_that_a_fit_sets_is_its_own(tmp_path, capsys):
+    """A fifth of the stated 2.9876 % is 0.6 %: the fit says so, and the scene that it writes has the 3 % of the user."""
+    f = made_up(1, SPEEDS[::3], noise=0.0).coefficient
+    rows = [f"{u:.6g},{value:.6g},{0.029876 * value:.6g}" for u, value in zip(SPEEDS[::3], f)]
+    (tmp_path / "rig.csv").write_text("\n".join(["U [m/s],mu,s", *rows]))
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    command = ["fit", str(tmp_path / "scene.toml"), "--measured", str(tmp_path / "rig.csv"), "--speed", "U"]
+    command += ["--coefficient", "mu", "--deviation", "s", "--parameter", f"{FRICTION}=0.05:0.2"]
+    assert main([*command, "--out", str(tmp_path / "out")]) == 0
+    words = "a tolerance of 0.6 %, which it set from the noise of the data (their stated deviations)"
+    assert words in " ".join(capsys.readouterr().err.split())
+    assert lubfric.load_scene(tmp_path / "out" / "fitted.toml").numerics.tolerance == 0.03
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "relative tolerance on f 0.6 %, set by the fit from the noise of the data (numerics.tolerance: 3 %)" in page
+    assert "0.597" not in page and ">tolerance = 0.03<" in page
+
+
 def test_the_true_values_are_in_the_region(fitted):
     assert (
         in_joint_region(fitted, TRUTH) and fitted.report.converged and not fitted.undetermined and not fitted.at_bounds

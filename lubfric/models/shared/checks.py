@@ -400,7 +400,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             limit=FAST_PECLET_NUMBER,
             unit="",
             consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too high, and f is "
-            f"too low by at most {100 * heat.change:.2g} %; where that is below numerics.tolerance ({100 * tolerance:g} %) there is "
+            f"too low by at most {100 * heat.change:.2g} %; where that is below numerics.tolerance ({100 * tolerance:.2g} %) there is "
             "no warning",
             recommendation="set numerics.heat = 'off' to see the other bound of f",
         )
