@@ -59,7 +59,7 @@ def result_of(
     violations = (
         *of_answer,
         *(beside_larger_part(each, uncertainty) for each in _violations_by_model_error(scene, answer)),
-        *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
+        *violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation),
     )
     why = [choice.why] if choice.why else []
     decision = replace(answer.decision, model=choice.model.name, notes=(*answer.decision.notes, *why))

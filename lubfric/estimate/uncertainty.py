@@ -259,7 +259,10 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in ``notes``."""
         unknown = "" if math.isfinite(self.sampling) else f"; no 95 % interval{self._others_in_words}"
         parts = self._in_words(self.budget_in_words["sampling"])
-        return f"f = {with_interval(coefficient, *self.interval)}; {parts}{unknown}"
+        shown = with_interval(coefficient, *self.interval)
+        if self.without_sampling_in_words:  # its digits are known, though no interval is
+            shown = with_interval(coefficient, *self.interval_without_sampling).partition(" (")[0]
+        return f"f = {shown}; {parts}{unknown}"
 
     def _in_words(self, sampling_in_words: str) -> str:
         words = self.budget_in_words | {"sampling": sampling_in_words}

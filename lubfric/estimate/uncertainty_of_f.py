@@ -33,14 +33,15 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     scene = prepared.scene
     f = answer.numbers["coefficient"]
     sampling_error = answer.sampling_error
+    numerical = min(answer.numerical, _largest_change(scene, answer))
     has_sampling_error = math.isfinite(sampling_error.value)
     counted = sampling_error if has_sampling_error else replace(sampling_error, value=0.0)
     is_above = answer.numerical > scene.numerics.tolerance  # then a note has the same advice
     of_solve = Uncertainty(
         coefficient=f,
-        numerical=answer.numerical,
+        numerical=numerical,
         sampling=sampling_error.value,
-        interval=interval(f, numerical=answer.numerical, sampling_error=counted, model_error=answer.model_error),
+        interval=interval(f, numerical=numerical, sampling_error=counted, model_error=answer.model_error),
         line_scatter=sampling_error.value * math.sqrt(answer.length / scene.bodies.width),
         effective_contacts=answer.effective_contacts,
         length=answer.length,
@@ -84,6 +85,18 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
         cut=(*uncertainty.cut, CUT_AT_LIMIT),
         notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}", f"{by_rolling:.2g}")),
     )
+
+
+def _largest_change(scene: Scene, answer: ModelAnswer) -> float:
+    """Return the largest relative change of f that the limits of the shear stress and the sense of the sliding leave; infinite where
+    the bodies do not always slide. An error that is extrapolated from few lengths of cells may be larger, which means nothing."""
+    f = abs(answer.numbers["coefficient"])
+    if f == 0 or not _always_slides(scene):
+        return math.inf
+    rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
+    by_rolling = answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
+    most = largest_sliding_friction(scene, answer.numbers["speed"]) + by_rolling
+    return max(most - f, f + by_rolling) / f
 
 
 def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:

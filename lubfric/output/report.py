@@ -228,13 +228,14 @@ def curve_status(curve: CurveResult) -> str:
     total = len(curve.points)
     solved = total - len(curve.errors)
     if not curve.errors:
-        head = "Converged: the point is solved." if total == 1 else f"Converged: all {total} {plural} are solved."
+        largely_inexact = _largely_inexact(curve)
+        head = "The point is solved." if total == 1 else f"All {total} {plural} are solved."
+        if largely_inexact == 0:
+            head = f"Converged: {head[0].lower()}{head[1:]}"
         points = [point for point in curve.points if point is not None]
         inexact = sum(any(each.assumption == Assumption.NUMERICAL_ERROR for each in point.validity) for point in points)
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
-        return " ".join(
-            (*orders_of_magnitude(_largely_inexact(curve), total), head, *shortfalls(inexact, unknown, total))
-        )
+        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *shortfalls(inexact, unknown, total)))
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]

@@ -128,7 +128,7 @@ def test_the_note_on_windows_says_how_much_of_the_map_is_used_and_why(tmp_path):
     """The lengths are those of the joined map and of its windows, which have 400 cells along y each."""
     surface = lubfric.prepare(on_map(tmp_path, (900, 400))).surface
     note = next(note for note in surface.notes if "joined along y" in note)
-    (count, used, measured) = re.match(r"(\d+) windows? .* to ([\d.]+) µm of their ([\d.]+) µm", note).groups()
+    (count, used, measured) = re.match(r"(\d+) windows? .*; ([\d.]+) µm of their ([\d.]+) µm", note).groups()
     assert float(used) == pytest.approx(1e6 * surface.size[1], rel=1e-3)
     assert float(measured) == pytest.approx(int(count) * 400 * 0.9, rel=1e-3) and float(used) < 0.99 * float(measured)
     assert "each window passes smoothly into the next one" in note

@@ -95,6 +95,8 @@ def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     known = uncertainty_of(prepared, answer)
     assert (known.interval[0] > low) == ("resists the sliding" in known.text) == is_cut
     assert (known.interval[1] < high) == ("limits of the shear stress" in known.text) == is_cut
+    f = answer.numbers["coefficient"]
+    assert known.numerical == pytest.approx(max(known.interval[1] / f - 1, 1.0), rel=0.05) if is_cut else numerical
     if is_cut:
         (parts,) = re.findall(r"allow, ([0-9.e-]+) by sliding .* and ([0-9.e-]+) by rolling", known.text)
         assert sum(map(float, parts)) == pytest.approx(known.interval[1], rel=0.01)
