@@ -2,7 +2,7 @@
 
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from html import escape
 
@@ -16,7 +16,7 @@ from ..models.shared import (
     SAMPLING_ERROR,
     GatheredTexts,
     UnmodelledEffect,
-    alpha_in_words,
+    alpha_of_points_in_words,
     gathered_in_table,
     half_width_of_error,
     is_near_zero,
@@ -65,6 +65,9 @@ from .report import (
 
 # Rows of the table of a report, about; study.csv has all.
 MOST_ROWS = 60
+
+# Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms each.
+MOST_CHECKED_EFFECTS = 500
 
 # Numbers whose smallest and largest value the answer of a study has.
 ANSWERED = ("coefficient", "power_loss")
@@ -554,27 +557,38 @@ def _scene_of_each(result: StudyResult) -> list[Scene]:
     return [curves[i // each] for i in np.flatnonzero(result.status.ravel() != UNUSED)]
 
 
-def _effects_at_largest(result: StudyResult) -> tuple[int, tuple[UnmodelledEffect, ...]]:
-    """Return the row of `columns_of_study` where |f| is largest, and the effects that are not modelled there; none where no f
-    is known."""
+def _alpha_line(result: StudyResult) -> list[str]:
+    """Return at which points the range of an estimated pressure-viscosity coefficient is not in the interval of f, and by how much
+    it changes f, in a sentence; none where there are no such points."""
+    known = np.flatnonzero(np.isfinite(columns_of_study(result)["coefficient"]))
+    rows = known[:: max(1, -(-known.size // MOST_CHECKED_EFFECTS))]
+    effects = {row + 1: each for row, each in zip(rows.tolist(), _effects_at(result, rows.tolist()))}
+    text = alpha_of_points_in_words(effects, len(effects))
+    some = f" Checked at {rows.size} of {known.size} points." if text and rows.size < known.size else ""
+    return [f"{text}{some}"] if text else []
+
+
+def _effects_at(result: StudyResult, rows: Sequence[int]) -> Iterator[tuple[UnmodelledEffect, ...]]:
+    """Yield the effects that are not modelled at each of the ``rows`` of `columns_of_study`, where f is known."""
     columns = columns_of_study(result)
-    f = np.abs(columns["coefficient"])
-    if not np.isfinite(f).any():
-        return 0, ()
-    i = int(np.nanargmax(f))
-    scene = _scene_of_each(result)[i]
-    numbers = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
-    ratio = float(columns["film_to_roughness_ratio"][i])
-    sq = numbers["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
-    known = numbers["boundary_force"] / scene.bodies.load, float(f[i])
-    return i, unmodelled_effects(scene, sq, numbers["speed"], known, includes_motion=may_move_roughness(scene))
+    scenes = _scene_of_each(result)
+    for i in rows:
+        scene = scenes[i]
+        numbers = {
+            name: abs(float(columns[name][i])) for name in ("coefficient", "speed", "boundary_force", "central_film")
+        }
+        ratio = float(columns["film_to_roughness_ratio"][i])
+        sq = numbers["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
+        known = numbers["boundary_force"] / scene.bodies.load, numbers["coefficient"]
+        yield unmodelled_effects(scene, sq, numbers["speed"], known, includes_motion=may_move_roughness(scene))
 
 
 def _effects_table(result: StudyResult) -> str:
     """Return the table of the effects that are not modelled, where |f| is largest; "" where no f is known."""
     if not np.isfinite(result["coefficient"]).any():
         return ""
-    (row, effects) = _effects_at_largest(result)
+    row = int(np.nanargmax(np.abs(columns_of_study(result)["coefficient"])))
+    (effects,) = _effects_at(result, [row])
     return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {row + 1}, of the largest f')}"
 
 
@@ -612,9 +626,9 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
-    by_alpha = alpha_in_words(_effects_at_largest(result)[1], "the largest f")
+    by_alpha = _alpha_line(result)
     rows += best_lines(result)
-    return [*rows, *_budget_line(result), *filter(None, [by_alpha]), *_main_effects_line(result)]
+    return [*rows, *by_alpha, *_budget_line(result), *_main_effects_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:

@@ -3,7 +3,7 @@ scene."""
 
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
@@ -13,7 +13,16 @@ from typing import Any
 from ..errors import InputError
 from ..estimate import PointWorkEstimate, estimated_work_of_point, expected_violations, seconds_of_points
 from ..models import prepare
-from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
+from ..models.shared import (
+    Assumption,
+    ExpectedEffect,
+    Prepared,
+    Violation,
+    expected_alpha_in_words,
+    expected_effects,
+    sentence,
+    violations_by_unusual_inputs,
+)
 from ..quantities import counted, worded_value
 from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
 from .conditions import design_keys, operating_keys
@@ -101,6 +110,7 @@ class Left:
     models : number of the points of these scenes that each model is expected to answer, by its name
     failed : why some cannot be solved, in lines
     warnings : what is expected not to hold, but the unusual values (`warnings_of`), in sentences
+    alpha : what the range of an estimated pressure-viscosity coefficient is expected to change, in words; "": nothing
     """
 
     seconds: float
@@ -108,6 +118,7 @@ class Left:
     models: Counter[str]
     failed: list[str]
     warnings: list[str]
+    alpha: str
 
 
 def _left(plan: Any, table: StudyTable) -> Left:
@@ -118,6 +129,7 @@ def _left(plan: Any, table: StudyTable) -> Left:
     models: Counter[str] = Counter()
     failed = []
     violations: list[tuple[Violation, ...]] = []
+    effects: list[ExpectedEffect] = []
     known: dict[tuple[str, Any], float] = {}
     for scene, key, speeds in some:
         try:
@@ -129,6 +141,7 @@ def _left(plan: Any, table: StudyTable) -> Left:
             known |= _seconds_of_each(key, points, one) if speeds else {(key, NO_SPEED): one}
             models.update(point.model.name for point in points)
             violations.append(_expected(prepared, speeds))
+            effects += _expected_effects(prepared, speeds)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)
@@ -136,7 +149,14 @@ def _left(plan: Any, table: StudyTable) -> Left:
     mean = sum(known.values()) / max(len(known), 1)
     places = [(key, speed) for _, key, speeds in left for speed in speeds or (NO_SPEED,)]
     each = {place: known.get(place, mean) for place in places}
-    return Left(seconds=seconds, points=each, models=models, failed=failed, warnings=_in_sentences(violations, checked))
+    return Left(
+        seconds=seconds,
+        points=each,
+        models=models,
+        failed=failed,
+        warnings=_in_sentences(violations, checked),
+        alpha=expected_alpha_in_words(effects),
+    )
 
 
 def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float) -> dict[tuple[str, Any], float]:
@@ -155,6 +175,15 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds)
     known = (*prepared.violations, *(violation for _, violation in expected))
     return tuple(violation for violation in known if violation.assumption != Assumption.USUAL_VALUES)
+
+
+def _expected_effects(prepared: Prepared, speeds: Sequence[float]) -> Iterator[ExpectedEffect]:
+    """Yield the effects that are not modelled of a scene at the lowest and the highest of ``speeds`` [m/s] (none: of those that it
+    chooses)."""
+    sq = prepared.surface.sq
+    solved_speeds = speeds or first_speeds(prepared.scene, sq)
+    for speed in {min(solved_speeds, key=abs), max(solved_speeds, key=abs)}:
+        yield from expected_effects(prepared.scene, sq, speed)
 
 
 def in_words(seconds: float) -> str:
@@ -212,6 +241,7 @@ def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str
         return "\n".join([*lines, "  time     nothing is left to solve"]), {}
     left = _left(plan, table)
     lines += [f"  {text}" for text in (*warnings_of(plan), *left.warnings)]
+    lines += [f"  interval {left.alpha}"] if left.alpha else []
     if left.models:
         checked = left.models.total()
         answers = (

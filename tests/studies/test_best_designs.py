@@ -102,7 +102,7 @@ def test_a_negative_f_counts_by_its_magnitude():
 def test_curves_that_chose_their_speeds_are_not_compared():
     result = made(F[..., :1], WIDTH[..., :1], speeds=[0.1])
     chosen = replace(result, plan=replace(result.plan, speeds=()))
-    with pytest.raises(lubfric.InputError, match="give speeds"):
+    with pytest.raises(lubfric.InputError, match="give the same speeds"):
         chosen.best()
     assert best_designs.best_lines(chosen) == []
 
@@ -131,3 +131,30 @@ def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeyp
     monkeypatch.setattr("lubfric._base.figures.head", lambda figure, title: titles.append(title))
     study_pictures.plot_study(tmp_path / "study.png", result)
     assert titles[0].endswith("the first 10 of 12 combinations; study.csv has all")
+
+
+def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_coefficient():
+    """That of the single runs of its points, with the number of the point; the plan states it before as a range that holds it."""
+    graded = SCENE.with_(
+        lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60}, numerics={"model": "paper"}
+    )
+    plan = lubfric.plan_study(graded, {"bodies.load": LOADS[:2]}, [2.0])
+    changes = {}
+    for number, scene in enumerate(plan.scenes, 1):
+        point = lubfric.friction(scene, 2.0)
+        assert "lowest of measured oils" in point.not_in_interval
+        for what, change, _ in point.unmodelled_effects:
+            for end in ("lowest", "highest"):
+                if f"the {end} of measured" in what:
+                    changes[end, number] = change
+    (line,) = (line for line in study_report.answer_lines(lubfric.study(plan)) if "measured oils" in line)
+    assert line.startswith("At all points") and line.endswith("give lubricant.pressure_viscosity_coefficient.")
+    stated = re.search(r"lowest value .* by up to (\S+) % \(at point (\d)\), the highest by up to (\S+) % \(at", line)
+    worst = max((1, 2), key=lambda number: abs(changes["lowest", number]))
+    assert int(stated[2]) == worst
+    assert float(stated[1]) == pytest.approx(100 * changes["lowest", worst], rel=0.06)
+    (before,) = (text for text in plan.explain().splitlines() if "measured oils" in text)
+    ends = [float(end) for end in re.search(r"lowest value .* by (\S+) to (\S+) %, the", before).groups()]
+    assert ends[0] <= float(stated[1]) <= ends[1]
+    given = graded.with_(lubricant={"pressure_viscosity_coefficient": 2e-8})
+    assert "measured oils" not in lubfric.plan_study(given, {"bodies.load": LOADS[:2]}, [2.0]).explain()

@@ -302,11 +302,11 @@ def test_the_mean_friction_is_that_of_its_magnitude(points):
 
 @pytest.mark.parametrize("alpha, is_estimate", [(None, True), (2e-8, False)])
 def test_the_answer_of_a_study_names_an_estimated_pressure_viscosity_coefficient(alpha, is_estimate):
-    """With the changes by measured oils that the curve has at its largest f, as the report of a run."""
+    """With the changes by measured oils that a run of its point has."""
     oil = {"viscosity": None, "pressure_viscosity_coefficient": alpha, "grade": "ISO VG 68", "viscosity_index": 95}
     scene = SCENE.with_(lubricant=oil | {"temperature": "40 °C"})
     text = " ".join(answer_lines(lubfric.study(scene, {"bodies.load": [scene.bodies.load]}, [0.5])))
-    assert ("The pressure-viscosity coefficient is an estimate" in text) == is_estimate
+    assert ("the pressure-viscosity coefficient is an estimate" in text) == is_estimate
     if is_estimate:
         effects = lubfric.friction(scene, 0.5).unmodelled_effects
         by_alpha = [change for what, change, _ in effects if "measured oils" in what]

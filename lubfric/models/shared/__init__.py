@@ -106,9 +106,10 @@ from .unmodelled import (
     ExpectedEffect,
     UnmodelledEffect,
     alpha_beside_interval,
-    alpha_in_words,
+    alpha_of_points_in_words,
     change_in_words,
     effect_in_words,
+    expected_alpha_in_words,
     expected_effects,
     unmodelled_effects,
 )

@@ -10,7 +10,7 @@ change of f: it holds that of the result by any model.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ...oil import carried_stress, shear_stress
 from ...scene import Scene, has_moving_roughness
 from .checks_before import STRIP_NODES
 from .heat import TYPICAL
+from .violation import numbers_in_words
 
 # Film over that of a full inlet, of the example of a starved one. A convention, not measured.
 STARVED_EXAMPLE = 0.7
@@ -102,23 +103,51 @@ def unmodelled_effects(
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
 
 
-def alpha_in_words(effects: Sequence[UnmodelledEffect], of_f: str = "f") -> str:
-    """Return in a sentence how the lowest and the highest pressure-viscosity coefficient of measured oils change ``of_f``, by
-    the ``effects`` that are not modelled; "" where the coefficient is given, or both change f by less than the tolerance."""
-    changes = _changes_by_alpha(effects)
-    if not changes:
+def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
+    """Return in a sentence by how much the lowest and the highest pressure-viscosity coefficient of measured oils change f at most
+    at ``count`` points of a study, where, and what to give; "" where the coefficient is given, or the changes are below the tolerance.
+
+    ``effects_by_point``: the effects that are not modelled, by the number of the point, from 1.
+    """
+    changes = {number: _changes_by_alpha(effects) for number, effects in effects_by_point.items()}
+    numbers = sorted(number for number, by_end in changes.items() if by_end)
+    if not numbers:
         return ""
-    (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
-    senses = {math.copysign(1.0, change) for change in changes.values()}
-    both = f"; both {'raise' if max(senses) > 0 else 'lower'} it" if len(changes) == 2 and len(senses) == 1 else ""
+    texts = []
+    for end in ENDS_OF_ALPHA:
+        (change, worst) = max(
+            ((by_end[end], number) for number, by_end in changes.items() if end in by_end),
+            key=lambda pair: abs(pair[0]),
+            default=(math.nan, 0),
+        )
+        largest = f"up to {change_in_words(change)} (at point {worst})" if count > 1 else change_in_words(change)
+        texts.append(largest if worst else _change_at_end_of_alpha({}, end))
+    where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
     return (
-        "The pressure-viscosity coefficient is an estimate, whose error is not in the interval: by closed forms, the lowest value of "
-        f"measured oils changes {of_f} by {low}, the highest by {high}{both}."
+        f"{where} the pressure-viscosity coefficient is an estimate, whose error is not in the interval of f: by closed forms, the "
+        f"lowest value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give "
+        "lubricant.pressure_viscosity_coefficient."
+    )
+
+
+def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
+    """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is none."""
+    texts = []
+    for end in ENDS_OF_ALPHA:
+        of_end = [effect for effect in effects if effect[3] == GIVE_ALPHA and f"the {end} of" in effect[0]]
+        ends = [change for _, low, high, _ in of_end for change in (low, high) if math.isfinite(change)]
+        texts.append(change_in_words(min(ends), max(ends)) if ends else "less than numerics.tolerance")
+    if len({*texts}) == 1 and texts[0].startswith("less"):
+        return ""
+    return (
+        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed forms, the lowest "
+        f"value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give lubricant.pressure_viscosity_coefficient"
     )
 
 
 def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
-    """Return the same as `alpha_in_words` in a few words beside the interval of f."""
+    """Return how the lowest and the highest pressure-viscosity coefficient of measured oils change f in a few words beside the
+    interval of f; "" as of `alpha_of_points_in_words`."""
     changes = _changes_by_alpha(effects)
     if not changes:
         return ""
