@@ -216,10 +216,13 @@ def run_begun(
     names: Iterable[str],
     kept: Callable[[], str] | None,
     *key: Any,
+    kept_by: str = "",
     **places: Any,
 ) -> Iterator[tuple[RunFolder, Prepared, SceneEstimate]]:
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
     scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
+    ``kept_by``: the kind of a run whose saved points any run of that kind and the same scene uses, whatever its ``key``; "":
+    only the same run does.
 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
@@ -239,7 +242,9 @@ def run_begun(
     ):
         say(row)
     saying = keeping(kept) if kept else nullcontext()
-    with saying, run_folder(arguments.out, begun, fingerprint_without_files(prepared, *key)) as folder:
+    fingerprint = fingerprint_without_files(prepared, *key)
+    states = fingerprint_without_files(prepared, kept_by) if kept_by else fingerprint
+    with saying, run_folder(arguments.out, begun, fingerprint, states) as folder:
         folder.map_checksums = checksums
         begin_beside(figures.make_ready)  # while it is solved
         if folder.has_other_states and not folder.unfinished.is_dir():
@@ -390,15 +395,16 @@ class RunFolder:
     """What a command that has ``begun`` puts in the folder ``path``: ``contents`` by name. The
     last says that the others are complete.
 
-    ``unfinished`` has what an interrupted run of the same ``fingerprint`` saved. What others saved is left alone.
-    ``map_checksums``: of the height maps that were read, by path.
+    ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone. ``is_needed``:
+    whether runs of the same states still need it. ``map_checksums``: of the height maps that were read, by path.
     """
 
-    def __init__(self, path: Path, begun: CommandStart, fingerprint: str):
+    def __init__(self, path: Path, begun: CommandStart, fingerprint: str, states: str):
         self.path = path
         self.begun = begun
         self.fingerprint = fingerprint
-        self.unfinished = path / UNFINISHED / fingerprint[:16]
+        self.unfinished = path / UNFINISHED / states[:16]
+        self.is_needed = False
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
         self.map_checksums: dict[str, str] = {}
@@ -498,8 +504,14 @@ class RunFolder:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
         if not self.failures:  # else what was saved is all that has everything
-            Store(self.unfinished).clear()
-            clear_checked(self.unfinished.parent)
+            if self.is_needed:
+                say(
+                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene at more speeds; the command of "
+                    "that run continues it"
+                )
+            else:
+                Store(self.unfinished).clear()
+                clear_checked(self.unfinished.parent)
         if self.has_other_states:
             say(
                 f"{self.unfinished.parent} keeps the points of an interrupted run of other inputs; the command of that run continues it"
@@ -515,15 +527,15 @@ class RunFolder:
 
 
 @contextmanager
-def run_folder(path: Path, begun: CommandStart, fingerprint: str = "") -> Iterator[RunFolder]:
-    """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint``: a `RunFolder`.
+def run_folder(path: Path, begun: CommandStart, fingerprint: str = "", states: str = "") -> Iterator[RunFolder]:
+    """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint`` and ``states``: a `RunFolder`.
 
     Raises `InputError` if another process writes to it, and `OutputError` if it cannot be used, or if a picture was not
     drawn.
     """
     with FolderLock(path):
         clear_parts(path)
-        folder = RunFolder(path, begun, fingerprint)
+        folder = RunFolder(path, begun, fingerprint, states)
         yield folder
     if folder.failures:
         raise OutputError(f"{'; '.join(folder.failures)}; all else is in {path}")

@@ -36,7 +36,17 @@ from ..scene import (
     has_moving_roughness,
 )
 from ..units import number_and_unit, number_of, numbers_of, with_interval
-from .commands import RepeatedRun, RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
+from .commands import (
+    UNFINISHED,
+    RepeatedRun,
+    RunFolder,
+    check_outputs,
+    made,
+    moment_reports,
+    read_record,
+    run_begun,
+    say,
+)
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, read_contact, vtk_bytes
@@ -90,11 +100,6 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     names = names_of_run("stribeck")
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
-    def on_point(*point: Any) -> None:
-        ended.append(point)
-        shown.update(point[0], point[1])
-        progress(*point)
-
     def kept() -> str:
         verb = "is" if len(ended) == 1 else "are"
         return f"{len(ended)} of {total} points {verb} kept in {arguments.out}" if ended else ""
@@ -111,8 +116,22 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         studies.pool(workers) as executor,
         parts_on(None if speeds_apart else executor),
     ):
-        begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
+        begun = run_begun(scene, arguments, names, kept, speeds, chosen, kept_by="stribeck", speeds=speeds)
         with begun as (folder, prepared, estimate), progress_to(moment_reports()):
+            requested = () if speeds == studies.AUTO_SPEEDS else speeds
+            if known := studies.count_of_kept(folder.unfinished, prepared, requested):
+                verb = "is" if known == 1 else "are"
+                say(
+                    f"{known} of {counted(len(requested), 'points')} {verb} solved already, by an interrupted run in {arguments.out}"
+                )
+
+            def on_point(*point: Any) -> None:
+                if not ended:
+                    studies.keep_request(folder.unfinished, prepared, requested)
+                ended.append(point)
+                shown.update(point[0], point[1])
+                progress(*point)
+
             curve = studies.stribeck(
                 prepared,
                 speeds,
@@ -123,6 +142,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
                 on_point=on_point,
                 raise_on_failure=False,
             )
+            folder.is_needed = not studies.is_all_solved(folder.unfinished)
             _write(folder, prepared, curve, arguments, estimate, chosen, measured)
     _raise_if_failed(curve)
 
@@ -321,6 +341,9 @@ def plot_again(arguments: Namespace) -> None:
         return
     if not folder.is_dir():
         raise InputError(f"there is no folder {validate.shown(str(folder))}; give one that 'lubfric run' wrote")
+    if name is None and (folder / UNFINISHED).is_dir():
+        _plot_unfinished_again(arguments)
+        return
     if name is None:
         raise InputError(
             f"{folder} has no stribeck.csv; give a folder that 'lubfric run', 'lubfric study' or 'lubfric fit' wrote"
@@ -348,6 +371,36 @@ def plot_again(arguments: Namespace) -> None:
             operating_point=_operating_point_of_record(record),
         )
     _write_picture(arguments, name, again)
+
+
+def _plot_unfinished_again(arguments: Namespace) -> None:
+    """Draw the solved points of the curve of an interrupted run, in a folder of its own, as the run may go on, with a line on
+    stderr that says how much of the curve is drawn."""
+    folder = arguments.folder
+    states = sorted((folder / UNFINISHED).iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
+    unfinished = next(filter(None, map(studies.unfinished_curve, states)), None)
+    if unfinished is None:
+        raise InputError(
+            f"{folder} has an interrupted run without a solved point of a Stribeck curve",
+            recommendation="the command of the run continues it",
+        )
+    measured = measured_of(arguments, "stribeck")
+    options = _picture_options(arguments, "stribeck")
+    curve = unfinished.curve
+    points = [_point(curve, i) for i in range(len(curve.points))]
+    failed = f", {len(curve.errors)} failed" if curve.errors else ""
+    say(f"the run is not finished: {unfinished.in_words}{failed}; the picture has these")
+    (name, *models) = _title(curve.scene.name, points).splitlines()
+    again = partial(
+        _plot,
+        columns=read_table(folder / "stribeck.csv", studies.csv_bytes(curve)),
+        title="\n".join([f"{name}, not finished: {unfinished.in_words}", *models]),
+        points=points,
+        measured=measured,
+        options=options,
+        operating_point=operating_point_of(curve.scene, curve.SWEPT[0]),
+    )
+    _write_picture(Namespace(**(vars(arguments) | {"folder": folder / SO_FAR})), "stribeck", again)
 
 
 def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:

@@ -37,4 +37,5 @@ from .tables import (
     shown_numbers,
 )
 from .traction_gaps import Gap, gaps_of
+from .unfinished import UnfinishedCurve, count_of_kept, is_all_solved, keep_request, unfinished_curve
 from .vary import Between, sample

@@ -66,6 +66,9 @@ def solved(
             fields = "fine"
         key_of_point = point_key(key, speed, fields=fields)
         outcome = store.get(key_of_point, OUTCOME)
+        if outcome is None and not fields:
+            with_fields = store.get(point_key(key, speed, fields="fine"), OUTCOME)  # it has the same numbers
+            outcome = with_fields.without_fields() if isinstance(with_fields, FrictionResult) else None
         if outcome is None:
             outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, fields=fields)
             if not isinstance(outcome, MapError):  # its file may be there again, next time

@@ -227,13 +227,10 @@ def _requested(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tup
 def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared: Prepared) -> StribeckResult:
     """Return the curve of the ``outcomes`` at the ``requested`` speeds [m/s], or at chosen ones (none). Those that are
     missing have neither point nor error."""
-    points, errors = parted([outcomes.get(speed) for speed in requested or sorted(outcomes)])
-    speeds = np.array(requested or sorted(outcomes))
-    report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
-    numbers = columns_of(points) | {"speed": speeds}
-    curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
-    if requested or len(points) - len(errors) < FEWEST_SPEEDS:
+    curve = curve_of(requested or sorted(outcomes), outcomes, prepared.scene)
+    if requested or len(curve.points) - len(curve.errors) < FEWEST_SPEEDS:
         return curve
+    report = curve.report
     error = curve.between
     tolerance = tolerance_between(prepared)
     is_close_enough = error <= tolerance
@@ -247,6 +244,14 @@ def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared:
         or ("" if is_close_enough else "solve more speeds of your own, or loosen numerics.tolerance"),
     )
     return replace(curve, report=report_between)
+
+
+def curve_of(speeds: list[float], outcomes: Mapping[float, Outcome], scene: Scene) -> StribeckResult:
+    """Return the curve of the ``outcomes`` at these ``speeds`` [m/s]."""
+    points, errors = parted([outcomes.get(speed) for speed in speeds])
+    report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
+    numbers = columns_of(points) | {"speed": np.array(speeds)}
+    return StribeckResult(**numbers, points=points, errors=errors, report=report, scene=scene)
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -15,7 +15,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric._base import read_table
-from lubfric.output import main
+from lubfric.output import main, run_curve
 from lubfric.studies import Store
 
 ROOT = Path(__file__).parents[2]
@@ -296,7 +296,8 @@ def test_another_unfinished_run_in_the_folder_is_kept_and_named(tmp_path, whole,
     out = tmp_path / "out"
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 130
-    assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
+    other = written(tmp_path, SCENE.replace("entrainment_speed = 0.01", "entrainment_speed = 0.02"))
+    assert main(["run", other, "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
     assert json.loads((out / "result.json").read_text())["points"][0]["speed"] == 0.3
     assert len(list((out / "unfinished").iterdir())) == 1
     note = "keeps the points of an interrupted run of other inputs"
@@ -308,3 +309,40 @@ def test_another_unfinished_run_in_the_folder_is_kept_and_named(tmp_path, whole,
     assert note not in said and unused not in said
     complete(out)
     same(out, whole)
+
+
+def test_points_of_an_interrupted_run_serve_a_run_at_any_speeds_of_the_scene(tmp_path, whole, monkeypatch, capsys):
+    """The order of the speeds is that of the scene: 0.003, 0.01 (with fields) and 0.03 m/s are kept. No point is solved twice."""
+    out = tmp_path / "out"
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 4))
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 130
+    capsys.readouterr()
+    solved = Mock(side_effect=lubfric.friction)
+    monkeypatch.setattr("lubfric.studies.points.friction", solved)
+    assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.01,0.03,0.3", "--fields", "0.3"]) == 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert "2 of 3 points are solved already, by an interrupted run" in said and "not used" not in said
+    assert [call.args[1] for call in solved.call_args_list] == [0.3]
+    assert "keeps the points of an interrupted run of this scene at more speeds" in said
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 0
+    assert [call.args[1] for call in solved.call_args_list] == [0.3, 0.1]
+    complete(out)
+    same(out, whole)
+
+
+def test_an_interrupted_run_is_drawn_as_far_as_it_is(tmp_path, monkeypatch, capsys, drawn):
+    """The points that are drawn are those that `lubfric.stribeck` computes at these speeds."""
+    out = tmp_path / "out"
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 4))
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 130
+    before = sorted(out.rglob("*.bin"))
+    shown = []
+    real = run_curve.plot_stribeck
+    monkeypatch.setattr(run_curve, "plot_stribeck", lambda *a, **b: (shown.append(a), real(*a, **b)))
+    assert main(["plot", str(out)]) == 0
+    assert "the run is not finished: 3 of 5 speeds are solved; the picture has these" in capsys.readouterr().err
+    (_, columns, title, *_), *_ = shown
+    assert "not finished: 3 of 5 speeds are solved" in title and sorted(out.rglob("*.bin")) == before
+    curve = lubfric.stribeck(lubfric.load_scene(tmp_path / "scene.toml"), [0.003, 0.01, 0.03])
+    np.testing.assert_array_equal(columns["coefficient"], curve.coefficient)
+    assert (out / "so_far" / "stribeck.png").is_file() and not (out / "stribeck.png").exists()
