@@ -37,8 +37,9 @@ GIVEN_SPEEDS = ("u1", "u2")
 RULE = (
     "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an operating point. "
     "All other varied keys are design, except seeds and keys of [numerics] and [contact]. Two points cannot be distinguished if they "
-    "differ by less than the root sum of squares of the sides of their 95 % intervals that face each other, or if an interval is not "
-    "known. This rule takes the errors as independent; errors that both points share make the difference better known."
+    "differ by less than the error of their difference, or if an interval is not known. Numerical, sampling and model-form errors "
+    "count as independent. Ranges of inputs that all designs share, as these are not varied, are left out but for the difference of "
+    "what they change in both points. The interval of f contains them, so intervals of points that can be distinguished may overlap."
 )
 
 
@@ -75,15 +76,18 @@ def best_lines(result: StudyResult) -> list[str]:
     best_ones = best(result)
     lines = []
     if best_ones and not operating_keys(result.plan):
-        lines.append(f"The smallest friction coefficient: {_comparison(best_ones[0])}")
-    elif 0 < len(best_ones) <= MOST_SENTENCES:
+        (one,) = best_ones
+        lines.append(
+            f"f is lowest with {values_in_words(one.design)} (point {one.row}): {_number(one, '-')}. {_comparison(one)}"
+        )
+    elif best_ones:
+        lines.append(_summary(best_ones))
+    if operating_keys(result.plan) and len(best_ones) <= MOST_SENTENCES:
         lines += [
             f"At {condition_in_words(one.condition)}, f is lowest with {values_in_words(one.design)} (point {one.row}): "
             f"{_number(one, '-')}. {_comparison(one)}"
             for one in best_ones
         ]
-    elif best_ones:
-        lines.append(_summary(best_ones))
     quantity = "power_loss" if result.paired else "coefficient"
     mean = best_mean(result, quantity)
     if mean is not None:
@@ -104,7 +108,7 @@ def _comparison(one: BestDesign) -> str:
     others = one.compared - 1
     if not one.rivals:
         than = "the other combination" if others == 1 else f"all {others} other combinations"
-        return f"It is lower than with {than} by more than the intervals."
+        return f"It is lower than with {than} by more than the error of the difference."
     if not np.isfinite(one.interval[0]):
         return "Its interval is not known, so that it cannot be distinguished from the other combinations."
     count = f"{len(one.rivals)} of the {others} other combinations"
@@ -115,18 +119,36 @@ def _comparison(one: BestDesign) -> str:
     common = values_in_words(one.common_design)
     alike = f" All of these have {common}." if common and others > len(one.rivals) else ""
     unknown = f" The interval of {one.unknown_rivals} of these is not known." if one.unknown_rivals else ""
-    return f"Within the intervals it cannot be distinguished from {count} ({named}{more}).{alike}{unknown}"
+    return (
+        f"Within the error of the difference it cannot be distinguished from {count} ({named}{more}).{alike}{unknown}"
+    )
 
 
 def _summary(best_ones: tuple[BestDesign, ...]) -> str:
-    """Return in a sentence or two which combinations are the best of many operating conditions."""
+    """Return in a sentence or two which combinations are the best of several operating conditions: one of all, or how often each
+    one, and what they have in common."""
     counts = Counter(values_in_words(one.design) for one in best_ones)
-    words = "; ".join(f"with {name} at {count}" for name, count in counts.most_common(MOST_NAMED))
-    more = "; ..." if len(counts) > MOST_NAMED else ""
+    conditions = f"{len(best_ones)} operating conditions"
+    if len(counts) == 1:
+        of_all = f"all {conditions}" if len(best_ones) > 1 else "the operating condition"
+        text = f"One design has the lowest f at {of_all}: {next(iter(counts))}."
+    else:
+        words = "; ".join(f"with {name} at {count}" for name, count in counts.most_common(MOST_NAMED))
+        more = "; ..." if len(counts) > MOST_NAMED else "."
+        common = {
+            key: value
+            for key, value in best_ones[0].design.items()
+            if all(np.array_equal(one.design[key], value) for one in best_ones)
+        }
+        alike = f" At all of them the lowest f has {values_in_words(common)}." if common else ""
+        text = f"Of {conditions} f is lowest {words}{more}{alike}"
     clear = sum(not one.rivals for one in best_ones)
-    text = f"Of {len(best_ones)} operating conditions f is lowest {words}{more or '.'}"
-    distinct = f"At {clear} of them it is lower than with all other combinations by more than the intervals"
-    return f"{text} {distinct if clear else 'At none of them can it be distinguished from all other combinations within the intervals'}; report.html has all."
+    distinct = f"At {clear} of them it is lower than with all other designs by more than the error of the difference"
+    unclear = "At none of them can it be distinguished from all other designs"
+    if len(best_ones) == 1:
+        distinct = "It is lower there than with all other designs by more than the error of the difference"
+        unclear = "It cannot be distinguished there from all other designs"
+    return f"{text} {distinct if clear else unclear}."
 
 
 def best_table(result: StudyResult) -> str:

@@ -136,7 +136,11 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         if rows == size
         else f"About {rows} of {size} points, evenly spread, and those of the answer. No. is the row of study.csv, which has all."
     )
-    about += " Its last column has the numbers of the warnings above." if any(each.numbers for each in warnings) else ""
+    about += (
+        " The last column of this table has the numbers of the warnings above."
+        if any(each.numbers for each in warnings)
+        else ""
+    )
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
     return framed(
@@ -607,9 +611,9 @@ def _list(lines: list[str], kind: str = "ul") -> str:
 
 
 def answer_lines(result: StudyResult) -> list[str]:
-    """Return the smallest and the largest f and power loss of a study in sentences, with intervals and places; of
-    operating points also the means over the cycle."""
-    rows = []
+    """Return the answer of a study in sentences: the best design at the operating conditions, of operating points the means over the
+    cycle, the smallest and the largest f and power loss with intervals and places, and what the inputs do to f."""
+    rows = best_lines(result)
     if result.paired:
         rows += _mean_lines(result)
     for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
@@ -627,7 +631,6 @@ def answer_lines(result: StudyResult) -> list[str]:
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
     by_alpha = _alpha_line(result)
-    rows += best_lines(result)
     return [*rows, *by_alpha, *_budget_line(result), *_main_effects_line(result)]
 
 

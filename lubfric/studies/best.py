@@ -10,9 +10,14 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from ..models.shared import half_width_of_error
+from ..scene import inputs_not_given
 from .conditions import design_keys, operating_keys
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .tables import columns_of_study
+
+# Parts of the uncertainty budget of f by ranges of inputs, which designs have in common where the inputs are not varied.
+SHARED_PARTS = ("not_given", "inputs")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,9 +61,10 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
     each.
 
     Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point lies; all
-    else that is varied is design. Two points cannot be distinguished where the difference of their numbers is within the root sum of
-    squares of the parts of their intervals that face each other: their errors are taken as independent. Errors that they have in
-    common would make the difference better known. A point without a known interval cannot be distinguished from any other.
+    else that is varied is design. Two points cannot be distinguished where the difference of their numbers is within the error of this
+    difference. Their numerical, sampling and model-form errors are taken as independent, and count by the sides of the intervals that
+    face each other. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two changes
+    counts. A point without a known interval cannot be distinguished from any other.
 
     Parameters
     ----------
@@ -72,14 +78,16 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
     ------
     InputError : the curves chose their own speeds, at which they cannot be compared
     """
-    (columns, value, ends) = _compared(result, quantity)
+    (columns, points) = _compared(result, quantity)
+    value = points.value
+    ends = points.ends
     (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
     best_ones = []
     for condition in range(int(conditions.max(initial=-1)) + 1):
         rows = np.flatnonzero((conditions == condition) & np.isfinite(value))
         if np.unique(designs[rows]).size < 2:
             continue
-        (lowest, others) = _ranked(value[rows], ends[:, rows])
+        (lowest, others) = _ranked(points.at(rows))
         best_ones.append(
             BestDesign(
                 condition=_at(columns, operating_keys(result.plan), rows[lowest]),
@@ -103,7 +111,8 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
     The interval is the mean of those of the points, whose errors are taken as fully correlated. ``quantity``, comparison and errors:
     as of `best`.
     """
-    (columns, value, ends) = _compared(result, quantity)
+    (columns, points) = _compared(result, quantity)
+    value = points.value
     (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
     count = int(conditions.max(initial=-1)) + 1
     weights = columns.get(DURATION, np.ones(value.size))
@@ -114,9 +123,10 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
             complete.append(rows)
     if count < 2 or len(complete) < 2:
         return None
-    means = np.array([mean_over_cycle(value[rows], weights[rows]) for rows in complete])
-    mean_ends = np.array([[mean_over_cycle(end[rows], weights[rows]) for rows in complete] for end in ends])
-    (lowest, others) = _ranked(means, mean_ends)
+    averaged = _mean_points(points, complete, weights)
+    means = averaged.value
+    mean_ends = averaged.ends
+    (lowest, others) = _ranked(averaged)
     names = [_at(columns, design_keys(result.plan), rows[0]) for rows in complete]
     return BestDesign(
         condition={},
@@ -131,16 +141,91 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
     )
 
 
-def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-    """Return the columns of a study, and of each point the magnitude of a ``quantity`` and the ends (2, n) of its interval."""
+@dataclass(frozen=True, kw_only=True)
+class _Points:
+    """Points, or designs, that are compared.
+
+    Attributes
+    ----------
+    value : magnitude of the number, (n,)
+    ends : of its 95 % interval, (2, n); NaN where it is not known
+    own : sides of the interval, below and above, by the errors that a point has for itself, (2, n)
+    by_inputs : sides by the ranges of inputs, (2, n)
+    inputs : number of the set of inputs with a range, (n,): points with the same share the values of these inputs
+    """
+
+    value: np.ndarray
+    ends: np.ndarray
+    own: np.ndarray
+    by_inputs: np.ndarray
+    inputs: np.ndarray
+
+    def at(self, rows: np.ndarray) -> _Points:
+        """Return the points in ``rows``."""
+        return _Points(**{name: numbers[..., rows] for name, numbers in vars(self).items()})
+
+
+def _mean_points(points: _Points, designs: list[np.ndarray], weights: np.ndarray) -> _Points:
+    """Return the means of ``points`` over the rows of each of the ``designs``, with the means of all their errors."""
+
+    def mean(numbers: np.ndarray) -> np.ndarray:
+        means = [[mean_over_cycle(row[rows], weights[rows]) for rows in designs] for row in np.atleast_2d(numbers)]
+        return np.array(means).reshape(*numbers.shape[:-1], len(designs))
+
+    sets: dict[tuple[int, ...], int] = {}
+    inputs = [sets.setdefault(tuple(points.inputs[rows].tolist()), len(sets)) for rows in designs]
+    numbers = {name: mean(values) for name, values in vars(points).items() if name != "inputs"}
+    return _Points(**numbers, inputs=np.array(inputs))
+
+
+def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Points]:
+    """Return the columns of a study, and its points with the magnitude of a ``quantity``."""
     validate.choice("quantity", quantity, INTERVAL_COLUMNS)
     if result.chosen:
         raise InputError("curves that choose their own speeds cannot be compared; give the same speeds to all")
     columns = columns_of_study(result)
-    unknown = np.full(result.status.size, np.nan)
+    (f, ends_of_f) = _magnitude(columns, "coefficient")
+    (value, ends) = _magnitude(columns, quantity)
+    parts = {name: columns[f"uncertainty_{name}"] for name in ("numerical", "sampling", "freedom", *SHARED_PARTS)}
+    of_model = np.nan_to_num(columns["uncertainty_model"])  # the interval does not contain one that is not known
+    of_sample = [half_width_of_error(*pair) for pair in zip(parts["sampling"].tolist(), parts["freedom"].tolist())]
+    own_of_f = f * np.sqrt(parts["numerical"] ** 2 + np.square(of_sample) + of_model**2)
+    by_inputs_of_f = f * np.hypot(*(np.nan_to_num(parts[name]) for name in SHARED_PARTS))
+    sides_of_f = np.abs(ends_of_f - f)
+    of_interval = np.where(sides_of_f > 0, sides_of_f, np.inf)
+    sides = np.abs(ends - value)
+    return columns, _Points(
+        value=value,
+        ends=ends,
+        own=sides * np.minimum(own_of_f / of_interval, 1.0),
+        by_inputs=sides * np.minimum(by_inputs_of_f / of_interval, 1.0),
+        inputs=_sets_of_inputs(result, columns),
+    )
+
+
+def _magnitude(columns: dict[str, np.ndarray], quantity: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return the magnitude of a ``quantity`` at each point, (n,), and the ends of its interval, (2, n)."""
+    value = np.abs(columns[quantity])
+    unknown = np.full(value.size, np.nan)
     low, high = (columns.get(name, unknown) for name in INTERVAL_COLUMNS[quantity])
     ends = np.sort(np.abs([low, high]), axis=0)
-    return columns, np.abs(columns[quantity]), np.where(low * high < 0, [0.0 * low, ends[1]], ends)
+    return value, np.where(low * high < 0, [0.0 * low, ends[1]], ends)
+
+
+def _sets_of_inputs(result: Any, columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the number of the set of inputs with a range that each point has, (n,). An input that the study varies is another
+    one at each design, also where its range is the same."""
+    scenes = result.plan.scenes
+    designs = _groups(columns, design_keys(result.plan))
+    varied = {*design_keys(result.plan)}
+    sets: dict[Any, int] = {}
+    numbers = []
+    of_scenes = [((scene.ranges, inputs_not_given(scene)), {name for name, *_ in scene.ranges}) for scene in scenes]
+    for row, design in enumerate(designs.tolist()):
+        (inputs, names) = of_scenes[row * len(scenes) // designs.size]
+        is_varied = bool(varied & (names | {name.partition(".")[0] for name in names}))
+        numbers.append(sets.setdefault((inputs, design if is_varied else None), len(sets)))
+    return np.array(numbers, dtype=int)
 
 
 def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray:
@@ -151,13 +236,16 @@ def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray
     return np.array([numbers.setdefault(tuple(row), len(numbers)) for row in rows], dtype=int)
 
 
-def _ranked(value: np.ndarray, ends: np.ndarray) -> tuple[int, np.ndarray]:
-    """Return which ``value`` (n,) is the lowest, and which others cannot be distinguished from it by the ``ends`` (2, n) of the intervals, the
-    lowest first."""
+def _ranked(points: _Points) -> tuple[int, np.ndarray]:
+    """Return which of ``points`` has the lowest value, and which others cannot be distinguished from it, the lowest first."""
+    value = points.value
     order = np.argsort(value, kind="stable")
     lowest = int(order[0])
-    above = ends[1, lowest] - value[lowest]
-    are_distinct = value - value[lowest] > np.hypot(above, value - ends[0])
+    shared = np.abs(points.by_inputs - points.by_inputs[:, [lowest]]).max(axis=0)
+    apart = np.hypot(points.by_inputs[1, lowest], points.by_inputs[0])
+    by_inputs = np.where(points.inputs == points.inputs[lowest], shared, apart)
+    own = np.hypot(points.own[1, lowest], points.own[0])
+    are_distinct = value - value[lowest] > np.hypot(own, by_inputs)
     return lowest, np.array([row for row in order[1:] if not are_distinct[row]], dtype=int)
 
 

@@ -20,12 +20,12 @@ SPEEDS = [0.1, 1.0]
 VARY = {"surface.sq": SQ, "bodies.load": LOADS, "bodies.material": MATERIALS}
 
 
-def made(f, half_width, **plan):
+def made(f, half_width, scene=SCENE, **plan):
     """A study of ``VARY`` at ``SPEEDS`` with made numbers: nothing is solved."""
-    planned = lubfric.plan_study(SCENE, **({"vary": VARY, "speeds": SPEEDS} | plan))
+    planned = lubfric.plan_study(scene, **({"vary": VARY, "speeds": SPEEDS} | plan))
     columns = {"coefficient": f, "uncertainty_low": f - half_width, "uncertainty_high": f + half_width}
     columns |= {"power_loss": 10 * f, "power_loss_low": 10 * (f - half_width), "power_loss_high": 10 * (f + half_width)}
-    columns |= {"film_load": np.ones(planned.shape)}
+    columns |= {"film_load": np.ones(planned.shape), "uncertainty_model": half_width / np.abs(f)}
     numbers = dict.fromkeys(lubfric.study(SCENE, {}, [0.3]).columns, np.zeros(planned.shape)) | columns
     return StudyResult(planned, numbers, np.full(planned.shape, "converged"), np.full(planned.shape, "", dtype=object))
 
@@ -58,9 +58,10 @@ def test_points_are_told_apart_as_their_intervals_are_narrow_or_wide(width, coun
     result = made(F, width * np.ones(F.shape))
     assert {len(one.rivals) for one in result.best()} == {count}
     words = " ".join(best_designs.best_lines(result))
-    expected = {0: "more than the intervals", 1: "cannot be distinguished from any of the 5 other"}.get(
-        width, "interval is not known"
-    )
+    expected = {
+        0: "by more than the error of the difference",
+        1: "cannot be distinguished from any of the 5 other",
+    }.get(width, "interval is not known")
     assert expected in words
 
 
@@ -133,6 +134,57 @@ def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeyp
     assert titles[0].endswith("the first 10 of 12 combinations; study.csv has all")
 
 
+def with_shared_range(vary, f, part, own=0.0):
+    """A study of two designs with made f, whose interval has a relative ``part`` by ranges of inputs and an ``own`` one."""
+    scene = SCENE.with_(bodies={"boundary_friction_coefficient": [0.09, 0.15]})
+    values = np.array(f)[:, None]
+    made_study = made(values, values * math.hypot(part, own), scene=scene, vary=vary, speeds=[0.1])
+    parts = {"uncertainty_inputs": np.full(values.shape, part), "uncertainty_model": np.full(values.shape, own)}
+    return replace(made_study, columns=made_study.columns | parts)
+
+
+@pytest.mark.parametrize("own, count", [(0.0, 0), (0.15, 0), (0.3, 1)])
+def test_a_range_that_designs_share_leaves_the_difference_of_what_it_changes(own, count):
+    """f of 0.05 and 0.08, each +-40 % by the range, move together, from a difference of 0.018 to one of 0.042."""
+    result = with_shared_range({"surface.sq": SQ[:2]}, [0.05, 0.08], 0.4, own)
+    (one,) = result.best()
+    assert len(one.rivals) == count == (0.03 < math.hypot(0.4 * 0.03, own * 0.05, own * 0.08))
+    assert one.interval[1] > 0.08 * (1 - 0.4)  # the intervals overlap nevertheless
+
+
+def test_a_range_of_an_input_that_is_varied_is_not_shared():
+    vary = {"bodies.boundary_friction_coefficient": [[0.09, 0.15], [0.1, 0.16]]}
+    (one,) = with_shared_range(vary, [0.05, 0.08], 0.4).best()
+    assert len(one.rivals) == 1
+
+
+def test_a_range_that_moves_one_design_alone_is_not_left_out():
+    """As f_b of a design that touches beside one with a full film."""
+    result = with_shared_range({"surface.sq": SQ[:2]}, [0.05, 0.08], 0.4)
+    unlike = {
+        "uncertainty_inputs": np.array([[0.0], [0.4]]),
+        "uncertainty_low": np.array([[0.05], [0.048]]),
+        "uncertainty_high": np.array([[0.05], [0.112]]),
+    }
+    (one,) = replace(result, columns=result.columns | unlike).best()
+    assert len(one.rivals) == 1
+
+
+def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhere():
+    f = F.copy()
+    f[1, :, 0, :] = 0.01
+    lines = study_report.answer_lines(made(f, WIDTH))
+    winner = "root mean square height Sq 100 nm, "
+    assert lines[0].startswith(f"One design has the lowest f at all 6 operating conditions: {winner}")
+    f[2, 1, 0, 0] = 0.005
+    lines = study_report.answer_lines(made(f, WIDTH))
+    assert lines[0].startswith(f"Of 6 operating conditions f is lowest with {winner}") and " at 5; with " in lines[0]
+    assert "At all of them the lowest f has material 100Cr6." in lines[0]
+    page = study_report.study_page(made(f, WIDTH), {}, lines).decode()
+    assert re.search(r'<p class="answer">Of 6 operating conditions', page)
+    assert "left out but for the difference" in page and "report.html has all" not in page
+
+
 def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_coefficient():
     """That of the single runs of its points, with the number of the point; the plan states it before as a range that holds it."""
     graded = SCENE.with_(
@@ -148,7 +200,7 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
                 if f"the {end} of measured" in what:
                     changes[end, number] = change
     (line,) = (line for line in study_report.answer_lines(lubfric.study(plan)) if "measured oils" in line)
-    assert line.startswith("At all points") and line.endswith("give lubricant.pressure_viscosity_coefficient.")
+    assert "At all points, by closed forms" in line and line.endswith("give lubricant.pressure_viscosity_coefficient.")
     stated = re.search(r"lowest value .* by up to (\S+) % \(at point (\d)\), the highest by up to (\S+) % \(at", line)
     worst = max((1, 2), key=lambda number: abs(changes["lowest", number]))
     assert int(stated[2]) == worst

@@ -306,7 +306,7 @@ def test_the_answer_of_a_study_names_an_estimated_pressure_viscosity_coefficient
     oil = {"viscosity": None, "pressure_viscosity_coefficient": alpha, "grade": "ISO VG 68", "viscosity_index": 95}
     scene = SCENE.with_(lubricant=oil | {"temperature": "40 °C"})
     text = " ".join(answer_lines(lubfric.study(scene, {"bodies.load": [scene.bodies.load]}, [0.5])))
-    assert ("the pressure-viscosity coefficient is an estimate" in text) == is_estimate
+    assert ("The pressure-viscosity coefficient is an estimate" in text) == is_estimate
     if is_estimate:
         effects = lubfric.friction(scene, 0.5).unmodelled_effects
         by_alpha = [change for what, change, _ in effects if "measured oils" in what]

@@ -345,7 +345,7 @@ def test_points_that_share_a_reason_are_one_line_with_the_worst():
     ]
     page = study_report.study_page(result, {}, []).decode()
     (listed,) = re.findall(r"<h2>Warnings</h2>\s*<ol>(.*?)</ol>", page)
-    assert listed.count("<li>") == 2
+    assert listed.count("<li>") == 2 and "The last column of this table has the numbers of the warnings above." in page
     body = page.split("<h2>Operating points</h2>")[1].split("</table>")[0]
     rows = [re.findall(r">([^<]*)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", body)[1:]]
     assert [row[-1] for row in rows] == ["1, 2" if n in (4, 7) else "1" for n in range(40)]

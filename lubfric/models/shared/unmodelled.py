@@ -123,9 +123,10 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
         largest = f"up to {change_in_words(change)} (at point {worst})" if count > 1 else change_in_words(change)
         texts.append(largest if worst else _change_at_end_of_alpha({}, end))
     where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
+    others = " (less than numerics.tolerance at the others)" if len(numbers) < count else ""
     return (
-        f"{where} the pressure-viscosity coefficient is an estimate, whose error is not in the interval of f: by closed forms, the "
-        f"lowest value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give "
+        f"The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. {where}{others}, by closed forms, "
+        f"the lowest value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give "
         "lubricant.pressure_viscosity_coefficient."
     )
 
