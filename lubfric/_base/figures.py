@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from functools import wraps
 from importlib.resources import as_file, files
 from pathlib import Path
@@ -33,6 +33,12 @@ RED = "#b3392f"
 GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
 FRICTION_LABEL = axis_label("coefficient")
+
+# Names of the lines of a curve in its key.
+ASPERITY_FRICTION = "asperity friction"
+FLUID_FRICTION = "fluid friction"
+OPERATING_POINT_MARK = "operating point"
+NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
 
 # Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
@@ -131,12 +137,16 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
     return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
-def friction_lines(axes: Axes, x: FloatArray, parts: Sequence[FloatArray], **style: Any) -> None:
-    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``style``: of
-    the first."""
+def friction_lines(
+    axes: Axes, x: FloatArray, parts: Sequence[FloatArray], *, without: Container[str] = (), **style: Any
+) -> None:
+    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``without``: the names
+    of those that are omitted; ``style``: of the first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
-    for part, color, label in ((contact, RED, "asperity friction"), (film, GREEN, "fluid friction")):
+    for part, color, label in ((contact, RED, ASPERITY_FRICTION), (film, GREEN, FLUID_FRICTION)):
+        if label in without:
+            continue
         lone: dict[str, Any] = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
         axes.plot(x, part, color=color, lw=PART_WIDTH, ls=(0, (2.5, 2)), label=label, **lone)  # f shows through
 

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 # Panels of a picture from the top, by the table that it is drawn from.
 PANELS = {"stribeck": ("friction", "load", "film"), "traction": ("friction", "load", "film", "temperature")}
 
+# Lines of a curve that a user may omit, by their names in its key.
+LINES = (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION, figures.OPERATING_POINT_MARK)
+
 # Choices, by looking at the figures.
 PICTURE_WIDTH = 7.0  # inch: of a picture
 INCH = 0.0254  # m
@@ -41,6 +44,7 @@ class PictureOptions:
     dpi : points of a PNG per inch; None: `PRINTED_DPI` where the width is chosen, else that of the style
     has_warnings : whether points with warnings are marked, and the warnings named below
     has_parts : whether lines show the errors by the model and by the surface alone
+    without : names of lines of a curve that are omitted, of `LINES`
     has_title : whether the name of the scene is above
     has_bars : whether the intervals of a curve are bars at its points, in place of a band with those lines
     """
@@ -54,6 +58,7 @@ class PictureOptions:
     has_parts: bool = True
     has_title: bool = True
     has_bars: bool = False
+    without: tuple[str, ...] = ()
 
     def size(self, heights: Sequence[float]) -> tuple[float, float]:
         """Return width and height [inch] of a figure with panels of these ``heights`` [inch] at the usual width."""

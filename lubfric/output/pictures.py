@@ -61,9 +61,12 @@ def plot_stribeck(
     speed = np.abs(c["speed"])
     if "friction" in axes:
         top = axes["friction"]
-        friction_over_speed(top, columns, has_parts=options.has_parts, as_bars=options.has_bars)
+        friction_over_speed(
+            top, columns, has_parts=options.has_parts, as_bars=options.has_bars, without=options.without
+        )
         _draw_measured(top, measured)
-        _mark_operating_point(top, c["speed"], speed, c["coefficient"], operating_point)
+        if figures.OPERATING_POINT_MARK not in options.without:
+            _mark_operating_point(top, c["speed"], speed, c["coefficient"], operating_point)
         _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order], options)
         top.set(xlabel="")
     figures.head(figure, title if options.has_title else "")
@@ -99,7 +102,7 @@ def _mark_operating_point(
     """Mark f at the ``operating_point``, one of the ``solved`` speeds or ratios, at its ``x`` of the axis; NaN marks none."""
     own = solved == operating_point
     if own.any():
-        axes.plot(x[own], coefficient[own], "*", color="k", ms=9, label="operating point")
+        axes.plot(x[own], coefficient[own], "*", color="k", ms=9, label=figures.OPERATING_POINT_MARK)
 
 
 def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
@@ -148,7 +151,8 @@ def plot_traction(
         top = axes["friction"]
         _traction_over_ratio(top, c, options)
         _draw_measured(top, measured, is_signed=bool((ratio < 0).any()))
-        _mark_operating_point(top, ratio, ratio, c["coefficient"], operating_point)
+        if figures.OPERATING_POINT_MARK not in options.without:
+            _mark_operating_point(top, ratio, ratio, c["coefficient"], operating_point)
         _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title if options.has_title else "")
     if "load" in axes:
@@ -185,7 +189,7 @@ def _traction_over_ratio(axes: Axes, c: dict[str, np.ndarray], options: PictureO
     load = c["contact_load"] + c["film_load"]
     shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
     parts = [np.insert(part, gaps, np.nan) for part in shown]
-    figures.friction_lines(axes, broken["ratio"], parts, marker="o", ms=4)
+    figures.friction_lines(axes, broken["ratio"], parts, without=options.without, marker="o", ms=4)
     axes.set_ylabel(figures.FRICTION_LABEL)
 
 
@@ -207,7 +211,7 @@ def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray]) -> list[int]:
     low, high = (columns.get(f"interval_{end}", unknown) for end in ("low", "high"))
     ends = []
     slips = np.abs(ratio)
-    label: str | None = "not known between the points"
+    label: str | None = figures.NOT_BETWEEN
     for gap in gaps_of(ratio, f, 0.5 * (high - low)):
         place = int(np.argmin(np.abs(slips - gap.low)))
         other = int(np.argmin(np.abs(slips - gap.high)))

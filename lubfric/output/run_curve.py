@@ -51,7 +51,7 @@ from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, read_contact, vtk_bytes
 from .fit_picture import FIT, plot_fit, read_fit
-from .picture_options import PANELS, PictureOptions
+from .picture_options import LINES, PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
 from .report import gap_notes, model_in_words, operating_point_not_solved, operating_point_of
@@ -64,7 +64,7 @@ if TYPE_CHECKING:
 
 AXIS_SCALES = ("linear", "log")  # of an axis
 INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
-LEFT_OUT = ("warnings", "parts", "title")  # of a picture, where a user does not want them
+LEFT_OUT = ("warnings", "parts", "title", *LINES)  # of a picture, where a user does not want them
 
 # Limits by choice, for a picture that can be read and drawn.
 NARROWEST = 0.05  # m: width of a picture
@@ -568,7 +568,10 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
             raise InputError(f"--interval is for a curve, and this is {TABLES[name]}; omit it")
         form = validate.choice("--interval", arguments.interval, INTERVAL_FORMS)
     words = [] if arguments.without is None else arguments.without.split(",")
-    left_out = [validate.choice("--without", word.strip(), LEFT_OUT) for word in words]
+    left_out = [validate.choice("--without", word.strip().replace("-", " "), LEFT_OUT) for word in words]
+    lines = tuple(line for line in LINES if line in left_out)
+    if lines and name not in PANELS:
+        raise InputError(f"--without {lines[0]!r} is for a curve, and this is {TABLES.get(name, f'a {name}')}; omit it")
     return PictureOptions(
         panels=panels,
         width=_width(arguments),
@@ -578,6 +581,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
         has_parts="parts" not in left_out,
         has_title="title" not in left_out,
         has_bars=form == "bars",
+        without=lines,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -244,7 +244,7 @@ def interval_band(
         if "interval_low" in columns:
             ax.plot([], [], " ", label=f"{BAND} not known")
         return
-    known = np.isfinite(columns.get("model_error", unknown))
+    known = np.isfinite(columns.get("model_error", unknown)[np.isfinite(f)])
     band = BAND
     if not known.any():
         band += ", without model-form error"
@@ -275,10 +275,16 @@ def interval_band(
 
 
 def friction_over_speed(
-    axes: Axes, columns: dict[str, np.ndarray], *, has_parts: bool = True, as_bars: bool = False, **style: Any
+    axes: Axes,
+    columns: dict[str, np.ndarray],
+    *,
+    has_parts: bool = True,
+    as_bars: bool = False,
+    without: Container[str] = (),
+    **style: Any,
 ) -> np.ndarray:
     """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
-    `interval_band`), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
+    `interval_band`; ``without``: names of parts that are omitted), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
     drawn, in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
@@ -290,9 +296,11 @@ def friction_over_speed(
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         joined: dict[str, Any] = {"marker": "o", "ms": 4, "ls": ":"}  # a dotted line joins the points, and is no curve
-        figures.friction_lines(axes, speed, parts, **joined | style)
+        if speed.size > 1 and figures.NOT_BETWEEN not in axes.get_legend_handles_labels()[1]:
+            axes.plot([], [], ":", color=figures.BLUE, label=figures.NOT_BETWEEN)
+        figures.friction_lines(axes, speed, parts, without=without, **joined | style)
     else:
-        figures.friction_lines(axes, line[0], line[1:], **style)
+        figures.friction_lines(axes, line[0], line[1:], without=without, **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)

@@ -102,6 +102,8 @@ def test_a_curve_is_drawn_by_its_table(figures):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
     (joined,) = (line for line in top.lines if line.get_label() == "friction coefficient")
     assert joined.get_linestyle() == ":"  # three points a decade apart show no curve
+    key = [text.get_text() for text in top.get_legend().get_texts()]
+    assert key.count("not known in between") == 1
     np.testing.assert_allclose(
         edges(top, "95 % interval, without model-form error"),
         [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]],
@@ -170,6 +172,38 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
     assert main(["plot", out, "--name", "../figure"]) == 2
     for wrong in (["--format", "bmp"], ["--width", "1 mm"], *wrong_words):
         assert main(["plot", out, *wrong]) == 2
+
+
+def test_lines_of_a_curve_are_omitted(figures, tmp_path, monkeypatch):
+    """By their names in the key, of both kinds of curve."""
+    options = []
+    monkeypatch.setattr(
+        "lubfric.output.run_curve._write_picture", lambda *each: options.append(each[-1].keywords["options"])
+    )
+    scene = tmp_path / "s.toml"
+    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
+    out = str(tmp_path / "out")
+    assert main(["run", str(scene), "--speeds", "0.1", "--out", out]) == 0
+    assert main(["plot", out]) == 0 and main(["plot", out, "--without", "asperity-friction, operating point"]) == 0
+    lines = {"asperity friction", "fluid friction", "operating point"}
+    for plot, columns in ((plot_stribeck, COLUMNS), (plot_traction, COLUMNS | {"ratio": COLUMNS["speed"]})):
+        for chosen, shown in zip(options, (lines, {"fluid friction"})):
+            plot("x.png", columns, "title", [()] * 4, options=chosen, operating_point=0.1)
+            assert lines.intersection(figures[-1].axes[0].get_legend_handles_labels()[1]) == shown
+
+
+@pytest.mark.parametrize("unknown, words", [([], ""), ([0], ", model-form error where known")])
+def test_the_key_says_whether_the_model_form_error_is_known_at_all_points(figures, unknown, words):
+    """Where a gap breaks the line of a traction curve, there is no point whose error could be unknown."""
+    ratio = np.linspace(0.0, 0.1, 4)
+    f = 0.01 * np.arcsinh(ratio / 1e-3)
+    columns = {name: np.resize(column, 4) for name, column in COLUMNS.items()}
+    columns |= {"ratio": ratio, "coefficient": f, "interval_low": 0.9 * f, "interval_high": 1.1 * f}
+    error = np.full(4, 0.05)
+    error[unknown] = np.nan
+    plot_traction("x.png", columns | {"model_error": error}, "title", [()] * 4)
+    labels = figures[0].axes[0].get_legend_handles_labels()[1]
+    assert "not known in between" in labels and f"95 % interval{words}" in labels
 
 
 def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(figures):
@@ -255,7 +289,7 @@ def test_the_key_of_a_narrow_figure_has_few_rows():
     friction_over_speed(axes, COLUMNS | errors)
     axes.figure.canvas.draw()
     key = axes.get_legend()
-    assert len(key.get_texts()) == 6 and key.get_window_extent().height < 0.2 * axes.figure.bbox.height
+    assert len(key.get_texts()) == 7 and key.get_window_extent().height < 0.25 * axes.figure.bbox.height
 
 
 def test_a_band_ends_where_the_points_of_a_traction_curve_do_not_show_f(figures):
@@ -266,7 +300,7 @@ def test_a_band_ends_where_the_points_of_a_traction_curve_do_not_show_f(figures)
     columns |= {"ratio": ratio, "coefficient": f, "interval_low": 0.9 * f, "interval_high": 1.1 * f}
     plot_traction("x.png", columns, "title", [()] * 4)
     top = figures[0].axes[0]
-    np.testing.assert_array_equal(data(top, "not known between the points"), [ratio[:2], f[:2]])
+    np.testing.assert_array_equal(data(top, "not known in between"), [ratio[:2], f[:2]])
     assert np.isnan(data(top, "friction coefficient")).sum(axis=1).tolist() == [1, 1]
     (band,) = (area for area in top.collections if "95 % interval" in str(area.get_label()))
     assert min(path.vertices[:, 0].min() for path in band.get_paths() if len(path.vertices)) > 0.03
