@@ -11,7 +11,6 @@ import numpy as np
 from .._base import __version__
 from ..estimate import PARTS
 from ..models.shared import (
-    MODEL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,
     GatheredTexts,
@@ -159,7 +158,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
                 f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)
             ),
             pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-            warnings=(
+            warnings=_counts_as_paragraph(result)
+            + (
                 _list([each.text for each in warnings], kind="ol")
                 if warnings
                 else "<p>No checked limit of the model is exceeded.</p>"
@@ -175,6 +175,11 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     )
 
 
+def _counts_as_paragraph(result: StudyResult) -> str:
+    counts = counts_of_warnings(result)
+    return f"<p>{escape(sentence(counts))}</p>" if counts else ""
+
+
 def _gathered(result: StudyResult) -> list[GatheredTexts]:
     """Return one sentence for each assumption that does not hold somewhere, with the points."""
     return gathered_in_table([str(cell) for cell in columns_of_study(result)["validity"]])
@@ -182,29 +187,32 @@ def _gathered(result: StudyResult) -> list[GatheredTexts]:
 
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
     """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which are of no
-    point, then the assumptions that do not hold somewhere, and where the model-form error of f is above its target."""
+    point, then the assumptions that do not hold somewhere."""
     warnings = [GatheredTexts(text=sentence(note), numbers=()) for note in result.plan.notes]
-    warnings += [each for each in _gathered(result) if not is_note_text(each.text)]
-    more = " ".join(model_error_above_target(result))
-    if not more:
-        return warnings
-    numbers = tuple(_numbers_of_points(result)[_is_above_target(result)].tolist())
-    for place, each in enumerate(warnings):
-        if f": {MODEL_ERROR} is" in each.text:
-            text = f"{each.text} {more.replace(f'of {result.solved} points', 'further points', 1)}"
-            warnings[place] = GatheredTexts(text=text, numbers=tuple(sorted((*each.numbers, *numbers))))
-            return warnings
-    return [*warnings, GatheredTexts(text=more, numbers=numbers)]
+    return [*warnings, *(each for each in _gathered(result) if not is_note_text(each.text))]
+
+
+def counts_of_warnings(result: StudyResult) -> str:
+    """Return at how many points of a study there are warnings and notes, as its tables have them, and what these are; "" where
+    there are none."""
+    noted = {number for each in _gathered(result) if is_note_text(each.text) for number in each.numbers}
+    if not result.with_warnings and not noted:
+        return ""
+    notes = (
+        f", notes at {len(noted)} (the interval of f covers what they say, or nothing is to be done)" if noted else ""
+    )
+    where = f"warnings at {result.with_warnings} of {counted(result.solved, 'points')}{notes}"
+    return f"{where}; study.csv has them in the column validity"
 
 
 def warning_lines(result: StudyResult) -> list[str]:
-    """Return how many points have warnings, and each reason with its points and the worst value, in a line each."""
-    if not result.with_warnings:
+    """Return how many points have warnings and notes, and each reason of a warning with its points and the worst value, in a line each."""
+    counts = counts_of_warnings(result)
+    if not counts:
         return []
-    where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
     heads = [each.text.partition(". ")[0] for each in _gathered(result) if not is_note_text(each.text)]
-    full = "report.html has them in full with what to do, study.csv in the column validity"
-    return [f"warnings at {where} ({full}):", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
+    full = ", and report.html has them in full with what to do"
+    return [f"{counts}{full}{':' if heads else '.'}", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 
 
 def _without_kind(text: str) -> str:
@@ -258,51 +266,6 @@ def why_no_intervals(result: StudyResult) -> str:
 def _ends(values: np.ndarray) -> str:
     """Return the ends of the range of ``values`` as text."""
     return " to ".join(dict.fromkeys(f"{end:.3g}" for end in (values.min(), values.max())))
-
-
-def model_error_above_target(result: StudyResult) -> list[str]:
-    """Return that the model-form error of f is above its target at points whose warnings do not say so: those of a model
-    that was chosen by its name. Points where f is near 0, as where sliding changes its sign, are apart, with the error in f
-    itself."""
-    target = result.plan.scene.numerics.model_tolerance
-    advice = "set numerics.model = 'auto' for the cheapest model within it"
-    error = np.where(_is_above_target(result), result["uncertainty_model"].flat, np.nan)
-    size = np.abs(result["coefficient"]).ravel()
-    near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
-    above = error[np.isfinite(error) & ~near_zero]
-    texts = []
-    if above.size:
-        ends = " to ".join(dict.fromkeys(percent(float(end)) for end in (above.min(), above.max())))
-        some = f"At {above.size} of {counted(result.solved, 'points')}"
-        where = some if above.size < result.solved else "At all points"
-        texts.append(
-            f"{where} the model-form error of f is {ends}, above numerics.model_tolerance, {percent(target)}: {advice}."
-        )
-    in_f = (error * size)[near_zero]
-    if in_f.size:
-        ends = " to ".join(dict.fromkeys(f"{end:.2g}" for end in (in_f.min(), in_f.max())))
-        numbers = _numbers_of_points(result)[near_zero].tolist()
-        texts.append(
-            f"{numbers_in_words(numbers, result.solved)}, where f is near 0, the model-form error is {ends} in f itself, not relative "
-            f"to f{'' if texts else f'; {advice}'}."
-        )
-    return texts
-
-
-def _is_above_target(result: StudyResult) -> np.ndarray:
-    """Return at which points, flat, the model-form error of f is above its target, and no warning says so; or f is near 0."""
-    error = np.asarray(result["uncertainty_model"]).ravel()
-    size = np.abs(result["coefficient"]).ravel()
-    near_zero = np.array([is_near_zero(*pair) for pair in zip(size.tolist(), error.tolist())])
-    warned = np.array([MODEL_ERROR in str(cell) for cell in result.validity.flat])
-    above: np.ndarray = ((error > result.plan.scene.numerics.model_tolerance) | near_zero) & ~warned
-    return above
-
-
-def _numbers_of_points(result: StudyResult) -> np.ndarray:
-    """Return the number of each point of ``result``, flat, in its tables, which have no unused points."""
-    numbers: np.ndarray = np.cumsum(result.status.ravel() != UNUSED)
-    return numbers
 
 
 def common_inputs(result: StudyResult | StudyPlan) -> str:

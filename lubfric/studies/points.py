@@ -4,16 +4,24 @@ several, give the same bits."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
 from ..estimate import FrictionResult, Uncertainty, friction
 from ..models import prepare, prepare_on_maps
-from ..models.shared import SAMPLING_ERROR, Assumption, Prepared, Violation, in_a_cell
+from ..models.shared import (
+    SAMPLING_ERROR,
+    Assumption,
+    Prepared,
+    Violation,
+    in_a_cell,
+    violations_by_model_error,
+)
 from ..quantities import NUMBERS
 from ..samples import is_measured, whole_maps
-from ..scene import Scene
+from ..scene import Numerics, Scene
 from .choose import chosen, each_once, first_speeds
 from .operating_points import INTERVAL_COLUMNS
 from .store import OUTCOME, Store, digest, fingerprint_without_files, is_shared, point_key
@@ -24,6 +32,7 @@ STATUS = "status"
 CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
 MISSING = "not computed"
+ACCEPTED_MODEL_ERROR = "numerics.model_tolerance sets this limit; the interval of f includes the error"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 
@@ -147,9 +156,9 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
     return [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios]
 
 
-def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
+def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]:
     """Return the numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and as text its
-    status and the assumptions that do not hold."""
+    status and the assumptions that do not hold, by the ``numerics`` of its study."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
@@ -157,7 +166,8 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers |= {f"uncertainty_{name}": value for name, value in errors.items() if isinstance(value, float)}
     numbers |= zip(INTERVAL_COLUMNS["coefficient"], outcome.uncertainty.interval)
     numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
-    violations = (*outcome.validity, *_missed_sampling_tolerance(outcome.uncertainty))
+    notes = (*_missed_sampling_tolerance(outcome.uncertainty), *_accepted_model_error(outcome, numerics))
+    violations = (*outcome.validity, *notes)
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(violations), **numbers}
 
 
@@ -175,4 +185,21 @@ def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
             unit="%",
             consequence="numerics.sampling_tolerance sets this limit; the interval of f includes the error",
             recommendation=f"give a map of about {times:.2g} times the area" if times > 1 else "",
+        )
+
+
+def _accepted_model_error(point: FrictionResult, numerics: Numerics) -> Iterator[Violation]:
+    """Yield a note if the model-form error of f is above its target and no warning of the ``point`` says so, as where the scene
+    names the model."""
+    if any(violation.assumption == Assumption.MODEL_FORM_ERROR for violation in point.validity):
+        return
+    is_named = numerics.model != "auto"
+    for violation in violations_by_model_error(
+        point.uncertainty.model, tolerance=numerics.model_tolerance, f=point.coefficient
+    ):
+        yield replace(
+            violation,
+            is_note=True,
+            consequence=ACCEPTED_MODEL_ERROR,
+            recommendation="set numerics.model = 'auto' for the cheapest model within this limit" if is_named else "",
         )

@@ -43,7 +43,7 @@ class StudyTable:
 
     def put(self, key: str, speed: float, outcome: Outcome) -> None:
         """Put in the outcome of a point."""
-        row = row_of(speed, outcome)
+        row = row_of(speed, outcome, self.plan.scene.numerics)
         places = self._places_of(key, speed)
         self.solved += 1
         for curve, place in places:

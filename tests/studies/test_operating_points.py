@@ -9,7 +9,7 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main, report
-from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target, study_page, why_no_rises
+from lubfric.output.study_report import answer_lines, common_inputs, study_page, why_no_rises
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
@@ -398,12 +398,6 @@ def test_what_follows_from_a_varied_temperature_is_no_common_input():
     assert "lubricant.temperature" not in common and "pressure_viscosity_coefficient" not in common
 
 
-@pytest.mark.parametrize("error, said", [(0.4, ["At all points the model-form error of f is 40 %, above"]), (0.04, [])])
-def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(error, said):
-    texts = model_error_above_target(stand_in(error))
-    assert [text[: len(words)] for text, words in zip(texts, said)] == said and len(texts) == len(said)
-
-
 def test_the_table_of_a_report_has_what_was_given_and_folds_what_follows_from_it(result):
     """The slide-roll ratio follows from the speeds of both surfaces."""
     page = study_page(result, {}, []).decode()
@@ -416,19 +410,6 @@ def test_the_table_of_a_report_has_what_was_given_and_folds_what_follows_from_it
     assert any(head.startswith("speed of surface 1 [") for head in shown)
     ratios = re.findall(r'data-label="slide-roll ratio"[^>]*>([^<]*)', page)
     assert [float(ratio) for ratio in ratios] == [float(f"{(b - a) / (0.5 * (a + b)):.4g}") for _, _, a, b, _ in ROWS]
-
-
-def test_a_model_form_error_where_f_is_near_zero_is_apart_and_in_f():
-    """At the pitch point of a gear f is that of rolling: an error of 11 times f is 0.0011."""
-    plain = stand_in(0.4)
-    error = np.array([0.4, 11.0, 0.2])
-    f = np.array([0.1, 1e-4, 0.3])
-    near_zero = StudyResult(
-        HOT, plain.columns | {"coefficient": f, "uncertainty_model": error}, plain.status, plain.validity
-    )
-    (relative, absolute) = model_error_above_target(near_zero)
-    assert relative.startswith("At 2 of 3 points the model-form error of f is 20 % to 40 %, above")
-    assert absolute.startswith("At point 2, where f is near 0, the model-form error is 0.0011 in f itself")
 
 
 def test_the_status_of_a_study_is_read_as_its_columns_are():

@@ -330,6 +330,26 @@ def test_the_table_of_a_report_has_the_films():
     assert [[row[place] for place in places] for row in cells] == [["200", "110", "0.7"], ["300", "120", "0.8"]]
 
 
+@pytest.mark.parametrize("model_tolerance", [1e-3, 1.0])
+def test_console_report_and_table_count_the_same_warnings_and_notes(tmp_path, model_tolerance):
+    """The model-form error of a model that the scene names is a note in all three, where it is above its target."""
+    scene = SMALL.with_(numerics={"model": "paper", "model_tolerance": model_tolerance})
+    result = lubfric.study(scene, {"bodies.load": [3.0, 5.0]}, [0.1, 0.3, 2.0])
+    result.to_csv(tmp_path / "study.csv")
+    with open(tmp_path / "study.csv", newline="") as file:
+        cells = [row["validity"] for row in csv.DictReader(file)]
+    notes = sum("note: " in cell for cell in cells)
+    warnings = sum("warning: " in cell for cell in cells)
+    above = result["uncertainty_model"].ravel() > model_tolerance
+    assert ["note: model-form error of f is" in cell for cell in cells] == above.tolist()
+    assert above.any() == (model_tolerance < 1)
+    counts = f"arnings at {warnings} of 6 points{f', notes at {notes} ' if notes else '; '}"
+    (head, *_) = study_report.warning_lines(result) or ["warnings at 0 of 6 points; "]
+    page = study_report.study_page(result, {}, []).decode()
+    assert counts in head and warnings == result.with_warnings
+    assert (counts in page) == bool(warnings or notes)
+
+
 def test_points_that_share_a_reason_are_one_line_with_the_worst():
     """On the console, and numbered in the report, where each row of the table has the numbers of its warnings."""
     result = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
@@ -338,13 +358,13 @@ def test_points_that_share_a_reason_are_one_line_with_the_worst():
     cells = [f"{cell} | warning: slip is 3, below 5. Why." if n in (4, 7) else cell for n, cell in enumerate(cells)]
     result = replace(result, validity=np.array(cells).reshape(result.validity.shape))
     head, *lines = study_report.warning_lines(result)
-    assert head.startswith("warnings at 40 of 40 points")
+    assert head.startswith("warnings at 40 of 40 points; study.csv")
     assert [line.strip() for line in lines] == [
         "at points 1 to 40: film pressure is 1.2 to 1.59 GPa (at point 40), above 1 GPa",
         "at points 5 and 8: slip is 3, below 5",
     ]
     page = study_report.study_page(result, {}, []).decode()
-    (listed,) = re.findall(r"<h2>Warnings</h2>\s*<ol>(.*?)</ol>", page)
+    (listed,) = re.findall(r"<h2>Warnings</h2>\s*<p>Warnings at 40 of 40 points;[^<]*</p><ol>(.*?)</ol>", page)
     assert listed.count("<li>") == 2 and "The last column of this table has the numbers of the warnings above." in page
     body = page.split("<h2>Operating points</h2>")[1].split("</table>")[0]
     rows = [re.findall(r">([^<]*)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", body)[1:]]
