@@ -5,9 +5,14 @@ from dataclasses import dataclass
 
 from ..models import Model
 from ..models.shared import Prepared
+from ..scene import Scene, source_of, typical, value_of
 
 # The names of the laws of the viscosity over pressure in papers.toml, by their values of the key.
 VISCOSITY_LAWS = {"roelands": "Roelands", "barus": "Barus"}
+
+# The names of the sources of typical values in papers.toml, by an author whom the source in typical.toml names. Data sheets and
+# suppliers' guides are in none.
+TYPICAL_VALUES = {"Arana": "typical values, Arana", "Zhang": "typical values, Zhang"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +44,7 @@ def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
     used = dict.fromkeys(of_model, True) | {"interval": use.is_sampled} | _surface(prepared)
     if use.has_film:
         used |= _lubricant(prepared, use) | _heat(prepared, use)
+    used |= _typical_values(prepared.scene, use)
     return tuple(_names(used.items()))
 
 
@@ -56,6 +62,19 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
         "generated map": any(rough.file is None for rough in maps),
         "Gaussian filter": any(rough.s_filter is not None or rough.l_filter is not None for rough in maps),
     }
+
+
+def _typical_values(scene: Scene, use: MethodUse) -> dict[str, bool]:
+    """Return which sources of typical values the ranges of the inputs are from, of bodies where asperities carry load, and of
+    the lubricant where a film does."""
+    is_used = {"bodies": use.has_contact, "lubricant": use.has_film}
+    texts = [
+        source_of(key, word)
+        for key, *ends in scene.ranges
+        for word, (value, *usual) in typical(key).items()
+        if is_used.get(key.partition(".")[0], False) and usual == ends and value == value_of(scene, key)
+    ]
+    return {name: any(author in text for text in texts) for author, name in TYPICAL_VALUES.items()}
 
 
 def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
