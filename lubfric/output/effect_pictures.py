@@ -61,7 +61,7 @@ MEAN_SIZE = 3.5
 
 MEAN = "mean over all other inputs"
 MIDDLE = "middle half of the points"
-ALL_POINTS = "all points"
+RANGE_OF_POINTS = "range of the points"
 
 
 class Group(NamedTuple):
@@ -109,7 +109,7 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
             scattered = studies.is_scattered(result, key)
             width = THINNER if options.is_narrow else 1.0
             _draw_over_key(axes, columns, key, of_speeds, is_scattered=scattered, width=width)
-            axes.set_title(_share_in_words(key, shares), fontsize=letters)
+            axes.set_title(fill(_share_in_words(key, shares), room), fontsize=letters)
         axes.set_ylabel("" if number % across else figures.FRICTION_LABEL)
     for axes in panels[len(inputs) :]:
         axes.set_visible(False)
@@ -152,7 +152,7 @@ def _share_in_words(key: str, shares: dict[str, Any]) -> str:
     if key not in shares:
         return ""
     share = shares[key].share
-    return f"{percent(share) if share >= LEAST_SHARE else f'below {percent(LEAST_SHARE)}'} of the variance"
+    return f"{percent(share) if share >= LEAST_SHARE else f'below {percent(LEAST_SHARE)}'} of the variance of ln\N{NO-BREAK SPACE}f"
 
 
 def _shown(key: str, values: np.ndarray) -> tuple[np.ndarray, str]:
@@ -258,7 +258,7 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     if any(line.get_markersize() == MEAN_SIZE for line in lines):
         handles.append(Line2D([], [], **grey, marker="o", ms=MEAN_SIZE, lw=1.0, label=MEAN))
         handles.append(Line2D([], [], **grey, lw=3.5, alpha=0.4, label=MIDDLE))
-        handles.append(Line2D([], [], **grey, lw=0.8, label=ALL_POINTS))
+        handles.append(Line2D([], [], **grey, lw=0.8, label=RANGE_OF_POINTS))
     if not groups:
         handles.append(Line2D([], [], **grey, lw=1.4, label=MEAN))
         handles.append(Line2D([], [], **grey, lw=5.0, alpha=0.3, label=MIDDLE))

@@ -46,7 +46,7 @@ MOST_PANELS = 8
 def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions = PictureOptions()) -> None:
     """Draw what a study found: operating points with their power loss; else f over the speed, or over a key that is varied, a
     line for each combination of the others; where no lines tell these apart, the effect of each input on f."""
-    title = figures.plain_words(result.plan.scene.name) if options.has_title else ""
+    title = _title(result) if options.has_title else ""
     if result.missing:
         title = "\n".join(filter(None, (title, f"not finished: {solved_so_far(result)}")))
     combinations = int(np.prod(result.status.shape[:-1], dtype=int))
@@ -80,6 +80,13 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     figures.fit_labels(figure)
     figures.heighten(figure, LEAST_PANEL)
     figure.savefig(path)
+
+
+def _title(result: studies.StudyResult) -> str:
+    """Return the name of the scene of a study, with its model unless the study varies this."""
+    name = figures.plain_words(result.plan.scene.name)
+    varies_model = any(key in ("numerics", "numerics.model") for key in result.coords)
+    return name if varies_model else f"{name} (model: {result.plan.scene.numerics.model})"
 
 
 def solved_so_far(result: studies.StudyResult) -> str:

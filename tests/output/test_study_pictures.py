@@ -302,7 +302,8 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
         np.testing.assert_allclose(means, f.mean(axis=others).T)
         ends = [segment[:, 1] for segment in axes.collections[0].get_segments()]
         np.testing.assert_allclose(ends, np.transpose([f.min(axis=others)[:, 0], f.max(axis=others)[:, 0]]))
-    assert not any(axes.get_title() == "" for axes in panels[:2])
+    assert all(" ".join(axes.get_title().split()).endswith("% of the variance of ln f") for axes in panels[:2])
+    assert "range of the points" in names and drawn[0].get_suptitle() == f"{SCENE.name} (model: paper)"
     low = np.where(np.arange(f.size) < 9, 0.8 * f.ravel(), np.nan).reshape(f.shape)
     some = {"coefficient": f, "uncertainty_low": low, "uncertainty_high": low + 0.5 * f}
     options = PictureOptions(width=WIDTHS["column"])
