@@ -316,7 +316,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[Any, Any]]:
 
 def _record(fitted: studies.FitResult) -> dict[str, Any]:
     of_fit = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "undetermined_sides")
-    names = (*of_fit, "at_bounds", "validity", "describes_data", "other_minima", "starts")
+    names = (*of_fit, "at_bounds", "validity", "describes_data", "other_minima", "starts", "tolerance")
     return {name: getattr(fitted, name) for name in names} | {
         "parameters": list(fitted.parameters),
         **drawn_record(fitted),

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -40,6 +40,12 @@ UNREPORTED_MOVE = 0.01
 
 # Correlation of two parameters, without sign, above which it is reported. A convention.
 CORRELATED = 0.9
+
+# What the warnings of a point say of its tolerance, and what those of a fit say that set it.
+OF_THE_FIT = {
+    "below numerics.tolerance (": "below the tolerance that the fit set from the noise of the data (",
+    "numerics.tolerance sets this limit": "the fit set this limit from the noise of the data",
+}
 
 # Largest f of the picture over that of points and curve. A choice, so that no mark is cut.
 HEADROOM = 1.08
@@ -154,7 +160,10 @@ class FitResult(Renamed, Shown):
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some of the points."""
         unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
-        return gathered(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
+        texts = gathered(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
+        if not self.tolerance_in_words:
+            return texts
+        return tuple(reduce(lambda text, words: text.replace(*words), OF_THE_FIT.items(), text) for text in texts)
 
     @property
     def at_bounds(self) -> tuple[str, ...]:
@@ -301,8 +310,7 @@ class FitResult(Renamed, Shown):
         of_data = "stated deviations" if self.measured.deviation is not None else "usual scatter"
         return (
             f"the fit solved f to a tolerance of {percent(self.tolerance)}, which it set from the noise of the data (their {of_data}); "
-            f"the scene keeps its numerics.tolerance of {percent(own)}, and where a warning names numerics.tolerance, that of the "
-            "fit is meant"
+            f"the scene keeps its numerics.tolerance of {percent(own)}"
         )
 
     def _one_sided(self, key: str) -> str:
