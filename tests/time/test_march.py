@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lubfric.scene import Table
-from lubfric.time import Progress, Step, plan_of, report_of, steps
+from lubfric.time import CreepingEnds, Progress, Step, plan_of, report_of, steps
 from lubfric.time.march import grid_residual
 
 
@@ -94,3 +94,23 @@ def test_a_step_that_fails_is_tried_shorter_and_then_reported():
         and poor.residual == 1.5
         and "1.5 times its tolerance at the start" in poor.message
     )
+
+
+def test_an_end_of_the_film_that_creeps_is_sent_ahead_and_one_in_excess_is_not():
+    """Each step fills one more node on the left: the fourth fills two more, the next four. Emptied nodes end that; the right end stays."""
+    dry = np.zeros(100, bool)
+    dry[20] = True
+    ends = CreepingEnds()
+    first = 50
+    firsts = []
+    for _ in range(5):
+        cavitated = np.ones(100, bool)
+        cavitated[first:60] = False
+        filled = np.flatnonzero(~ends.sent_ahead(cavitated, dry, 55))
+        firsts.append(int(filled[0]))
+        assert filled[-1] == 59 and np.array_equal(filled, np.arange(filled[0], 60))
+        first = int(filled[0]) - 1
+    assert firsts == [50, 49, 48, 47, 44]
+    too_many = np.ones(100, bool)
+    too_many[first + 3 : 60] = False
+    assert np.flatnonzero(~ends.sent_ahead(too_many, dry, 55))[0] == first + 3 and ends.steps == (0, 0)

@@ -242,7 +242,7 @@ def test_a_damaged_checkpoint_is_reported_and_the_run_begins_again(tmp_path):
         whole = path.read_bytes()
         for content in (whole[: len(whole) // 2], whole[:-1] + bytes([whole[-1] ^ 1]), b""):
             path.write_bytes(content)
-            with pytest.warns(UserWarning, match="damaged and does not count"):
+            with pytest.warns(UserWarning, match="damaged and is not used"):
                 assert stopped(MODEL, tmp_path, after=12) == first
     assert stopped(MODEL, tmp_path)[0] > first[-1]
 
