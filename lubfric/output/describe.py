@@ -217,6 +217,8 @@ def estimate_scene(
     within = WITHIN_WORDS
     for time in (measured or {}).values():
         within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
+    if not measured and not len(ratios) and _slow_points(work, speeds):
+        within = f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
     cost = f"about {in_words(seconds)} of processor time for {over} ({within})" if seconds else ""
     run = None
     if scene.transient is not None:
@@ -308,19 +310,23 @@ def belongs_to_curve(speed: float, speeds: Iterable[float]) -> bool:
     return speed != 0 and all(other * speed >= 0 for other in speeds)
 
 
+def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstimate]:
+    """Return the points, of some at these ``speeds`` [m/s], one strip of which takes more than `MEASURED_FROM` where roughness moves."""
+    if work.scene.transient is not None:
+        return []
+    moving = sorted({abs(u) for u in speeds if u != 0})
+    points = [work.at(speed) for speed in moving[:: max(1, len(moving) // SOME)]]
+    return [point for point in points if point.model.has_slow_strips and point.slow_strip_seconds > MEASURED_FROM]
+
+
 def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, MeasuredTime]:
     """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its time; {}: no
     strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
-    scene = work.scene
-    if scene.transient is not None:
-        return {}
-    moving = sorted({abs(u) for u in _speeds_of(scene, work.surface, speeds) if u != 0})
-    points = [work.at(speed) for speed in moving[:: max(1, len(moving) // SOME)]]
-    slow = [point for point in points if point.model.has_slow_strips and point.slow_strip_seconds > MEASURED_FROM]
+    slow = _slow_points(work, _speeds_of(work.scene, work.surface, speeds))
     if not slow:
         return {}
     longest = max(slow, key=lambda point: point.seconds)
-    measured = longest.model.measure_time(prepare_on_sample(scene, work.sample), longest.speed)
+    measured = longest.model.measure_time(prepare_on_sample(work.scene, work.sample), longest.speed)
     return {} if measured is None else {longest.model.name: measured}
 
 

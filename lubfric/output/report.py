@@ -725,16 +725,16 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        sentences.append(f"The mean power loss is {loss}, the largest {plain_number(float(np.nanmax(power)), 'W')}.")
+        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(result)}.")
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
         if run_model_of(scene).solves_rough_film
-        else f"The smallest film thickness is {film}, {_moment_of_least_film(result)}."
+        else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
         sentences.append(
-            "The lambda ratio (full-load film thickness in steady motion over Sq) lies between "
+            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies between "
             f"{_number(float(ratio.min()))} and {_number(float(ratio.max()))}."
         )
     solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
@@ -746,12 +746,21 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     return sentences
 
 
+def _largest_power_loss(result: TransientResult) -> str:
+    """Return the largest power loss of a run, with its interval where that is known, and its time, as text."""
+    columns = result.columns
+    index = int(np.nanargmax(result.power_loss))
+    (low, high) = (float(columns[f"power_loss_{end}"][index]) for end in ("low", "high"))
+    largest = with_interval(float(result.power_loss[index]), low, high, unit="W")
+    return f"the largest {largest} at t = {worded(float(result.time[index]), 's')}"
+
+
 def _moment_of_least_film(result: TransientResult) -> str:
     """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
     index = int(np.nanargmin(result.min_film))
     film = 1.0 - float(result.contact_load[index] / result.load[index])
     others = " and asperities carry the rest" if film < 1.0 else ""
-    return f"at t = {worded(float(result.time[index]), 's')}, where the film carries {100 * film:.3g} % of the load{others}"
+    return f"at t = {worded(float(result.time[index]), 's')}, where it carries {100 * film:.3g} % of the load{others}"
 
 
 def _history_notes(scene: Scene, result: TransientResult) -> list[str]:

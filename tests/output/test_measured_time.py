@@ -60,6 +60,13 @@ def test_a_measured_time_moves_the_estimate_of_its_model_alone(needle):
     assert estimated_work_of_point(limited, *at[1:], far_longer).seconds < 2.0
 
 
+def test_what_is_said_before_a_run_leads_to_what_is_measured(needle):
+    said = " ".join(lubfric.output.describe_scene(lubfric.load_scene(needle)).split())
+    assert (
+        "of processor time for 1 speed (within a factor of 3 in four of five cases; 'lubfric info' measures it" in said
+    )
+
+
 def test_info_at_rest_solves_nothing(monkeypatch, capsys):
     """Nor where roughness moves, but a strip takes little."""
 

@@ -241,6 +241,17 @@ def test_advice_to_take_shorter_cells_says_what_they_take(work, advice):
     assert times > 1 and advice.format(f"{float(f'{times:.2g}'):g}") in shorter_cells_in_motion(prepared, pair)
 
 
+def test_advice_on_cells_that_are_those_of_the_map_along_x_gives_their_length():
+    """Twice as many along y alone would leave the error of those along x, and the advice with it."""
+    prepared = lubfric.prepare(SCENE.with_(motion=ROLLING))
+    assert prepared.sample.cells.coarsening[0] * surface_and_map_coarsening(prepared, 0)[1][0] == 1
+    pair = SimpleNamespace(resolved=SimpleNamespace(work=1.0), has_halved_cells=False)
+    said = shorter_cells_in_motion(prepared, pair)
+    assert (
+        said == "give a finer contact.spacing along x of at most 1.8 µm and numerics.grid = 'given' for shorter cells"
+    )
+
+
 def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correlation_length():
     """On twice as long ones, the waves that the film carries die away: f was 34 % lower at film/Sq 1."""
     for motion, most in ((ROLLING, 0.25), ({}, 0.5)):

@@ -12,6 +12,7 @@ from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
+from ...units import worded
 from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
@@ -356,6 +357,10 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     sample_coarsening = sample_coarsening_of(scene, sample)
     if pair.has_halved_cells:
         sample_coarsening = halved_along_y(sample_coarsening)
+    along = sample.cells.coarsening[0] * sample_coarsening[0]
+    if along == 1:  # cells of the map, on which most of the error depends
+        finer = f"along x of at most {worded(0.5 * sample.cells.native_spacing[0], 'm')} and numerics.grid = 'given'"
+        return f"give {way_to_shorter_cells(prepared)} {finer} for shorter cells"
     if not sample.cells.is_native or sample_coarsening != (1, 1):
         (fx, fy) = (a * b for a, b in zip(sample.cells.coarsening, sample_coarsening))
         times = fx * fx * fy  # as many more steps in time as cells along x
