@@ -272,7 +272,10 @@ def violations_by_deflection(
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
-    why = "only its own pressure deflects the film, so the film carries too much load, and at low speeds f stays below f_b"
+    why = (
+        "only its own pressure deflects the film: at low speeds the film carries too much load, and f stays below f_b; at other "
+        "speeds f may be too low or too high"
+    )
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
     yield Violation(
         assumption=Assumption.FILM_UNDER_TOTAL_LOAD,
