@@ -16,6 +16,7 @@ from ..models.shared import (
     GatheredTexts,
     UnmodelledEffect,
     alpha_of_points_in_words,
+    first_sentence,
     gathered_in_table,
     half_width_of_error,
     is_near_zero,
@@ -210,7 +211,7 @@ def warning_lines(result: StudyResult) -> list[str]:
     counts = counts_of_warnings(result)
     if not counts:
         return []
-    heads = [each.text.partition(". ")[0] for each in _gathered(result) if not is_note_text(each.text)]
+    heads = [first_sentence(each.text) for each in _gathered(result) if not is_note_text(each.text)]
     full = ", and report.html has them in full with what to do"
     return [f"{counts}{full}{':' if heads else '.'}", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 

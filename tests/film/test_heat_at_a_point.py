@@ -79,7 +79,7 @@ def test_the_film_is_thinner_by_the_inlet_factor(model):
 def test_what_is_omitted_is_part_of_the_numerical_error(model):
     auto = at(model, 0.3, 0.01)
     on = at(model, 0.3, 0.01, numerics={"heat": "on"})
-    omitted = "heat within the contact: not included"
+    omitted = "heat within the contact: neglected"
     assert omitted in auto.decision.heat_in_words and omitted not in on.decision.heat_in_words
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):

@@ -458,7 +458,7 @@ def test_a_newtonian_answer_holds_solved_answers_at_the_ends_of_what_oils_have(n
         solved = point(PAPER.with_(lubricant={"limiting_stress_coefficient": limit}, numerics=LOOSE), 0.03)
         assert low < solved.coefficient < high
     assert 0.15 < newtonian.uncertainty.by_limit <= newtonian.uncertainty.model
-    assert "limiting stress of the oil is not known" in newtonian.uncertainty.text
+    assert "limiting stress of the oil is not given" in newtonian.uncertainty.text
 
 
 def test_a_stated_limit_of_f_b_takes_the_band_away_and_leaves_f(newtonian):

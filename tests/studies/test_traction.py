@@ -82,7 +82,7 @@ def test_a_refused_ratio_is_marked_and_the_others_kept():
     assert "2 slide-roll ratios" in repr(curve) and "failed 1" in repr(curve)
 
 
-def full_disk(path, *_):
+def full_disk(path, *_, **__):
     Path(path).write_bytes(b"half")
     raise OSError(28, "No space left on device")
 

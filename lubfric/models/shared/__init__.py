@@ -119,6 +119,7 @@ from .violation import (
     Violation,
     at_value,
     at_values,
+    first_sentence,
     gathered,
     gathered_in_table,
     gathered_texts,

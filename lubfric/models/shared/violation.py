@@ -186,6 +186,11 @@ def is_note_text(text: str) -> bool:
     return text.startswith("note: ") or ": note: " in text
 
 
+def first_sentence(text: str) -> str:
+    """Return the first sentence of ``text``, of one violation or gathered over points, which is what is violated."""
+    return text.partition(". ")[0]
+
+
 def in_a_cell(violations: Iterable[Violation]) -> str:
     """Return the texts of ``violations`` in one cell of a table."""
     return TEXT_SEPARATOR.join(violation.text for violation in violations)
