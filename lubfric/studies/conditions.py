@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .operating_points import COORDINATES, SPEEDS_OF_SURFACES
+from .operating_points import COORDINATES, POINT, SPEEDS_OF_SURFACES
 from .points import SPEED
 
 # Keys that are conditions of operation. The others are design, but those of the computation.
@@ -29,13 +29,19 @@ COMPUTATION = ("numerics.", "surface.seed", "counterface.seed", "contact.")
 
 def operating_keys(plan: Any) -> tuple[str, ...]:
     """Return the keys with several values in a `StudyPlan` that are conditions: load, speeds, slide-roll ratio and temperature of
-    the oil, columns that say where an operating point lies, and keys of the computation."""
-    return tuple(key for key in _varied(plan) if _is_condition(key))
+    the oil, columns that say where an operating point lies, and keys of the computation. Of a table of operating points with one of
+    these all columns are: the radius of a gear flank changes along the path of contact."""
+    varied = _varied(plan)
+    of_table = {key for key in varied if plan.paired and plan.coords[key][0] == POINT}
+    if not any(_is_condition(key) for key in of_table):
+        of_table = set()
+    return tuple(key for key in varied if _is_condition(key) or key in of_table)
 
 
 def design_keys(plan: Any) -> tuple[str, ...]:
     """Return the keys with several values in a `StudyPlan` that are design: all that are no `operating_keys`."""
-    return tuple(key for key in _varied(plan) if not _is_condition(key))
+    conditions = operating_keys(plan)
+    return tuple(key for key in _varied(plan) if key not in conditions)
 
 
 def _varied(plan: Any) -> list[str]:

@@ -11,7 +11,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric.output import best_designs, study_pictures, study_report
-from lubfric.studies import StudyResult
+from lubfric.studies import StudyResult, design_keys, operating_keys
 
 LOADS = [3.0, 5.0, 8.0]
 SQ = [5e-8, 1e-7, 2e-7]
@@ -91,6 +91,17 @@ def test_seeds_and_numerics_are_no_design():
     )
     assert lubfric.studies.design_keys(plan) == ("surface.sq",)
     assert "designs  (surface.sq) are compared at each condition (surface.seed, numerics.heat)" in plan.explain()
+
+
+def test_all_columns_of_a_table_of_operating_points_are_conditions():
+    """The radius of a gear flank is no choice: it changes along the path of contact. In a table of radii alone it is one."""
+    path = {"radius [mm]": [4, 5], "load [N]": [3, 5], "speed [m/s]": [0.1, 0.2]}
+    scene = lubfric.load_scene("paper")
+    flank = lubfric.plan_study(scene, {"surface.sq": [1e-7, 2e-7]}, points=path)
+    assert operating_keys(flank) == ("bodies.radius", "bodies.load", "speed") and design_keys(flank) == ("surface.sq",)
+    assert "designs" not in lubfric.plan_study(scene, points=path).explain()
+    radii = lubfric.plan_study(scene, points={"radius [mm]": [4, 5], "speed [m/s]": [0.1, 0.1]})
+    assert design_keys(radii) == ("bodies.radius",)
 
 
 def test_a_negative_f_counts_by_its_magnitude():
