@@ -53,8 +53,10 @@ from .best_designs import best_lines, best_table
 from .inputs import INPUT_SECTIONS, inputs
 from .page import framed
 from .report import (
+    GAP_OF_TOUCHING,
     effects_table,
     films_at_limit,
+    is_gap_of_touching,
     names_of_inputs,
     orders_of_magnitude,
     picture,
@@ -143,6 +145,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     )
     about += "".join(f" {text}" for text in (films_at_limit(columns_of_study(result)),) if text)
     about += why_no_intervals(result)
+    if any(is_gap_of_touching(film) for film in np.ravel(result["min_film"])):
+        about += f" {sentence(f'a smallest film of 1 nm is {GAP_OF_TOUCHING}')}"
     return framed(
         "study_report.html",
         "study of a lubricated line contact",

@@ -132,6 +132,14 @@ def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distingu
         assert (cells[4] == "none") == (not one.rivals)
 
 
+@pytest.mark.parametrize("film", [1e-9, 5e-9])
+def test_a_study_says_what_a_smallest_film_of_1_nm_is(film):
+    result = made(F, WIDTH)
+    result = replace(result, columns=dict(result.columns) | {"min_film": np.full(F.shape, film)})
+    page = study_report.study_page(result, {}, study_report.answer_lines(result)).decode()
+    assert ("A smallest film of 1 nm is the gap that the deterministic model assumes" in page) == (film == 1e-9)
+
+
 def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeypatch):
     cycle = {"load [N]": [3, 5], "speed [m/s]": [0.1, 0.2], "position [m]": [0, 1]}
     f = RANDOM.uniform(0.05, 0.1, (12, 2))
