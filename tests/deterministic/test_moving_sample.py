@@ -315,3 +315,23 @@ def test_a_short_moving_sample_says_of_which_blocks_it_has_too_few(moments, plac
     count = f"{number} nearly independent block{plural} ({blocks[0]} along the motion x {blocks[1]} along y)"
     assert count in words and f"needs {7 if has_control else 6}" in words and "omit numerics.sampling, or give" in words
     assert f"{0.1 * moments:.3g} half-widths" in words and f"{places / 5:.3g} correlation lengths wide" in words
+
+
+def test_where_nearly_all_of_the_load_rubs_the_cells_of_the_film_matter_little():
+    """At the limits: all of the error where film carries a thirtieth of the load or more, that of the rolling part where it carries none."""
+    of = {
+        "film_ratio": 1.0,
+        "coarse_x": 0.25,
+        "coarse_y": 0.25,
+        "coarse_b": 0.2,
+        "follows_lubricant": True,
+        "is_smooth": True,
+    }
+    complete = CellsInMotion(**of).error
+    assert complete > 0.05
+    errors = [CellsInMotion(**of, film_share=share).error for share in (0.0, 1e-3, 1e-2, 0.034, 0.5)]
+    assert errors == sorted(errors) and errors[0] == 0.0 and errors[-1] == errors[-2] == complete
+    assert errors[1] == pytest.approx(0.03 * complete)
+    assert CellsInMotion(**of, film_share=0.0, sliding_share=0.7).error == pytest.approx(0.3 * complete)
+    changing = of | {"film_ratio": 1.5}
+    assert CellsInMotion(**changing, film_share=0.0).error > 0.0  # what the boundary film itself changes stays
