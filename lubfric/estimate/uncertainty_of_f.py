@@ -71,9 +71,7 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear stress
     allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
     f = answer.numbers["coefficient"]
-    rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
-    sliding = largest_sliding_friction(scene, answer.numbers["speed"])
-    by_rolling = answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
+    (sliding, by_rolling) = _largest_parts(scene, answer)
     most = max(sliding + by_rolling, abs(f))
     low, high = uncertainty.interval
     if not (high > most or low < -most):
@@ -93,10 +91,15 @@ def _largest_change(scene: Scene, answer: ModelAnswer) -> float:
     f = abs(answer.numbers["coefficient"])
     if f == 0 or not _always_slides(scene):
         return math.inf
+    (sliding, by_rolling) = _largest_parts(scene, answer)
+    return max(sliding + by_rolling - f, f + by_rolling) / f
+
+
+def _largest_parts(scene: Scene, answer: ModelAnswer) -> tuple[float, float]:
+    """Return the largest f [-] by sliding that the limits of the shear stress allow, and the largest magnitude of its rolling part."""
+    sliding = largest_sliding_friction(scene, answer.numbers["speed"])
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
-    by_rolling = answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
-    most = largest_sliding_friction(scene, answer.numbers["speed"]) + by_rolling
-    return max(most - f, f + by_rolling) / f
+    return sliding, answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
 
 
 def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
