@@ -328,6 +328,15 @@ INTERVAL = {
     "power_loss_low": Quantity("W", "lower end of the 95 % interval of the power loss"),
     "power_loss_high": Quantity("W", "upper end of the 95 % interval of the power loss"),
 }
+OF_SIDES = {  # of the errors of f that differ towards 0 and away from it
+    f"{OF_UNCERTAINTY[name].column}_{end}": Quantity("-", f"{label} {side}, at 95 %")
+    for name, label in (
+        ("model", "relative model-form error of f"),
+        ("not_given", "relative change of f by the range of an input that the scene does not give,"),
+        ("inputs", "relative change of f by the ranges of inputs,"),
+    )
+    for end, side in (("low", "towards 0"), ("high", "away from 0"))
+}
 OF_MOMENT = {  # of a run in time, in the order of its table
     "time": Quantity("s", "time"),
     "entrainment_speed": _OF_POINT["speed"],
@@ -337,8 +346,11 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     **{name: q for name, q in QUANTITIES.items() if q.is_in_time},
     "sampling_error": OF_UNCERTAINTY["sampling"],
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),
-    "model_error_low": Quantity("-", "relative model-form error of f towards 0, at 95 %, as in steady motion"),
-    "model_error_high": Quantity("-", "relative model-form error of f away from 0, at 95 %, as in steady motion"),
+    **{
+        name: q._replace(label=f"{q.label}, as in steady motion")
+        for name, q in OF_SIDES.items()
+        if "model_error" in name
+    },
     "largest_friction": Quantity("-", "largest f that the limits of the shear stress allow"),
     **INTERVAL,
     "time_error": Quantity("-", "local error of the last step over its tolerance"),
@@ -380,11 +392,7 @@ KEYS |= {
     for key, q in KEYS.items()
     if key.startswith("surface.")
 }
-OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | {  # columns of the tables of studies
-    "uncertainty_low": INTERVAL["interval_low"],
-    "uncertainty_high": INTERVAL["interval_high"],
-    "uncertainty_tolerance": Quantity("-", "requested relative standard error of f"),
-}
+COLUMN_OF_ERROR = {name: q.column or name for name, q in OF_UNCERTAINTY.items()}  # columns of tables
 COLUMNS = (
     OF_MOMENT
     | OF_CYCLE
@@ -393,8 +401,9 @@ COLUMNS = (
     | KEYS
     | QUANTITIES
     | INTERVAL
-    | {q.column or n: q for n, q in OF_UNCERTAINTY.items()}
-    | OF_STUDY
+    | OF_SIDES
+    | {COLUMN_OF_ERROR[name]: q for name, q in OF_UNCERTAINTY.items()}
+    | {"sampling_tolerance": Quantity("-", "requested relative standard error of f")}
 )
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 

@@ -21,7 +21,15 @@ from .power import power_of_forces
 from .ranges import with_input_ranges
 from .result import FrictionResult, cite_together, cited
 from .solve_to_tolerance import solve_to_tolerance
-from .uncertainty import PARTS, Uncertainty, UncertaintyCurve, curve_of, interval
+from .uncertainty import (
+    PARTS,
+    UNCERTAINTY_COLUMNS,
+    Uncertainty,
+    UncertaintyCurve,
+    curve_of,
+    interval,
+    row_of_uncertainty,
+)
 from .uncertainty_of_f import uncertainty_of
 from .work_of_point import (
     NOT_MEASURED,

@@ -23,7 +23,15 @@ from ..models.shared import (
     percent_of_sides,
     sides_in_f,
 )
-from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
+from ..quantities import (
+    COLUMN_OF_ERROR,
+    ESTIMATED,
+    OF_SIDES,
+    OF_UNCERTAINTY,
+    Quantities,
+    UncertaintyQuantities,
+    described_in_doc,
+)
 from ..units import interval_in_words, with_interval
 
 # Today's names by the old ones.
@@ -276,6 +284,21 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
             stated.append(f"{name_in_words} {words[name]}{note}")
         of_what = "errors of f itself, which is near 0: " if self.is_near_zero else ""
         return "; ".join((f"{of_what}{', '.join(stated)}", *self.cut))
+
+
+# Columns of the uncertainty of f in every table: the ends of its interval, its parts, and both sides of those that have two.
+UNCERTAINTY_COLUMNS = ("interval_low", "interval_high", *COLUMN_OF_ERROR.values(), *OF_SIDES, "sampling_tolerance")
+
+
+def row_of_uncertainty(uncertainty: Uncertainty) -> dict[str, float]:
+    """Return the numbers of an ``uncertainty`` by the names that all tables have for them (`UNCERTAINTY_COLUMNS`)."""
+    row = dict(zip(("interval_low", "interval_high"), uncertainty.interval))
+    row |= {column: getattr(uncertainty, name) for name, column in COLUMN_OF_ERROR.items()}
+    for part in PARTS.values():
+        if part.sides:
+            names = (f"{COLUMN_OF_ERROR[part.quantity]}_{end}" for end in ("low", "high"))
+            row |= zip(names, getattr(uncertainty, part.sides))
+    return row | {"sampling_tolerance": uncertainty.tolerance}
 
 
 @described_in_doc

@@ -147,7 +147,7 @@ def _is_sample(result: studies.StudyResult) -> bool:
 def _draw_points(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> None:
     """Draw f of a study with its 95 % intervals, each as wide as it is, ``over`` (n,)."""
     f = result["coefficient"].ravel()
-    low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
+    low, high = (result[f"interval_{end}"].ravel() for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
     if known.any():
         bars: dict[str, Any] = {"color": figures.BLUE, "alpha": 0.4, "lw": 4, "label": "95 % interval"}
@@ -159,7 +159,7 @@ def _draw_points(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> N
 
 def _begin_at_zero(axes: Axes, result: studies.StudyResult) -> None:
     """Let the axis of f begin at 0, or below its negative values, and end above the largest end of an interval."""
-    numbers = [result[name].ravel() for name in ("coefficient", "uncertainty_low", "uncertainty_high")]
+    numbers = [result[name].ravel() for name in ("coefficient", "interval_low", "interval_high")]
     finite = np.concatenate([values[np.isfinite(values)] for values in numbers])
     if finite.size:
         axes.set_ylim(min(0.0, 1.05 * finite.min()), 1.05 * max(finite.max(), 0.0) or None)

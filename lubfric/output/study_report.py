@@ -28,7 +28,7 @@ from ..models.shared import (
     unmodelled_effects,
     warnings_in_cell,
 )
-from ..quantities import CHOICES, COLUMNS, counted, worded_value
+from ..quantities import CHOICES, COLUMN_OF_ERROR, COLUMNS, counted, worded_value
 from ..samples import is_measured, requests_patch
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget, has_moving_roughness, inputs_not_given
 from ..studies import (
@@ -238,7 +238,7 @@ def why_no_intervals(result: StudyResult) -> str:
     points; "" where all intervals are known."""
     columns = columns_of_study(result)
     solved = np.isfinite(columns["coefficient"])
-    unknown = solved & np.isnan(columns["uncertainty_low"])
+    unknown = solved & np.isnan(columns["interval_low"])
     if not unknown.any():
         return ""
     known = solved & ~unknown
@@ -327,7 +327,7 @@ def study_status(result: StudyResult) -> str:
     if not result.failed:
         head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
         inexact = sum(NUMERICAL_ERROR in str(cell) for cell in result.validity.flat)
-        unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
+        unknown = int(np.isnan(result["interval_low"][np.isfinite(result["coefficient"])]).sum())
         warned = orders_of_magnitude(_largely_inexact(result), result.solved)
         return " ".join((*warned, head, *shortfalls(inexact, unknown, result.solved)))
     failed = Counter(result.failures)
@@ -504,8 +504,8 @@ def _parts_of_error(
     Columns hold no text, so the inputs that are not given, whose range changes f, are those of the ``scenes`` there; where
     f does not depend on them, they are no part.
     """
-    parts = {name: np.atleast_1d(columns[f"uncertainty_{part.quantity}"][index]) for name, part in PARTS.items()}
-    freedom = np.atleast_1d(columns["uncertainty_freedom"][index])
+    parts = {name: np.atleast_1d(columns[COLUMN_OF_ERROR[part.quantity]][index]) for name, part in PARTS.items()}
+    freedom = np.atleast_1d(columns["sampling_freedom"][index])
     of_sample = zip(parts["sampling"], freedom)
     parts["sampling"] = np.array([half_width_of_error(error, float(n)) for error, n in of_sample])
     missing = names_of_inputs(key for scene in scenes for key in inputs_not_given(scene))
@@ -618,7 +618,7 @@ def _main_effects_line(result: StudyResult) -> list[str]:
 def _budget_line(result: StudyResult) -> list[str]:
     """Return the relative errors of f at its largest value in a sentence; none where f or its interval is not known."""
     f = np.abs(result["coefficient"])
-    f = np.where(np.isfinite(result["uncertainty_low"]), f, np.nan)
+    f = np.where(np.isfinite(result["interval_low"]), f, np.nan)
     if not np.isfinite(f).any():
         return []
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
@@ -627,7 +627,7 @@ def _budget_line(result: StudyResult) -> list[str]:
     parts = _parts_of_error(result.columns, index, [scene])
     words = ", ".join(f"{name} {percent(float(part[0]))}" for name, part in parts.items())
     place = point_in_words(result, index).partition(":")[0]
-    some = "" if np.isfinite(result["uncertainty_low"]).all() else " with an interval"
+    some = "" if np.isfinite(result["interval_low"]).all() else " with an interval"
     return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]
 
 
@@ -693,7 +693,7 @@ def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> s
     point of a gear, a mean with the sign would say nothing."""
     f = result["coefficient"][index]
     ends = np.abs([result[name][index] for name in INTERVAL_COLUMNS["coefficient"]])
-    crosses = result["uncertainty_low"][index] * result["uncertainty_high"][index] < 0
+    crosses = result["interval_low"][index] * result["interval_high"][index] < 0
     low = np.where(crosses, 0.0, ends.min(axis=0))
     durations = np.array(result.plan.coordinates.get(DURATION, np.ones(f.shape[-1])))
     mean, least, most = (mean_over_cycle(values, durations) for values in (np.abs(f), low, ends.max(axis=0)))

@@ -11,6 +11,7 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 from ..models.shared import half_width_of_error
+from ..quantities import COLUMN_OF_ERROR
 from ..scene import inputs_not_given
 from .conditions import design_keys, operating_keys
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
@@ -186,8 +187,8 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
     columns = columns_of_study(result)
     (f, ends_of_f) = _magnitude(columns, "coefficient")
     (value, ends) = _magnitude(columns, quantity)
-    parts = {name: columns[f"uncertainty_{name}"] for name in ("numerical", "sampling", "freedom", *SHARED_PARTS)}
-    of_model = np.nan_to_num(columns["uncertainty_model"])  # the interval does not contain one that is not known
+    parts = {name: columns[COLUMN_OF_ERROR[name]] for name in ("numerical", "sampling", "freedom", *SHARED_PARTS)}
+    of_model = np.nan_to_num(columns[COLUMN_OF_ERROR["model"]])  # the interval does not contain one that is not known
     of_sample = [half_width_of_error(*pair) for pair in zip(parts["sampling"].tolist(), parts["freedom"].tolist())]
     own_of_f = f * np.sqrt(parts["numerical"] ** 2 + np.square(of_sample) + of_model**2)
     by_inputs_of_f = f * np.hypot(*(np.nan_to_num(parts[name]) for name in SHARED_PARTS))

@@ -8,9 +8,16 @@ import numpy as np
 
 from .._base import Renamed, Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
-from ..estimate import FrictionResult, UncertaintyCurve, cite_together, curve_of
+from ..estimate import (
+    UNCERTAINTY_COLUMNS,
+    FrictionResult,
+    UncertaintyCurve,
+    cite_together,
+    curve_of,
+    row_of_uncertainty,
+)
 from ..models.shared import Violation, gathered, in_a_cell, is_note_text, violations_of
-from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
+from ..quantities import NUMBERS, counted, heading
 
 
 class CurveResult(Renamed, Shown):
@@ -143,13 +150,11 @@ def checked_curve(result: R, *, raise_on_failure: bool) -> R:
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
     """Return the columns of numbers of a curve by name: its quantities, then the uncertainty of f."""
-    uncertainty = curve.uncertainty
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
-    low, high = uncertainty.interval.T
-    columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
-    columns |= dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
-    columns |= dict(zip(("model_error_low", "model_error_high"), uncertainty.model_sides.T))
-    return columns | {q.column or name: getattr(uncertainty, name) for name, q in OF_UNCERTAINTY.items()}
+    rows = [{} if point is None else row_of_uncertainty(point.uncertainty) for point in curve.points]
+    columns = swept | columns_of(curve.points) | swept
+    columns |= {name: np.array([row.get(name, np.nan) for row in rows]) for name in UNCERTAINTY_COLUMNS}
+    return columns | dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
 
 
 def csv_bytes(curve: CurveResult) -> bytes:

@@ -274,7 +274,7 @@ def law_of_study(result: Any) -> Law:
     curves_of_study = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
     scenes = result.plan.scenes
     curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, curves_of_study) if curve is not None]
-    columns = (result[name] for name in ("coefficient", *(f"uncertainty_{n}" for n in ("low", "high", "model"))))
+    columns = (result[name] for name in ("coefficient", "interval_low", "interval_high", "model_error"))
     return law_of(result.plan.scene, curves, *columns)
 
 

@@ -360,7 +360,7 @@ def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
 
 # Columns of a study with an interval, and the columns of its ends.
 INTERVAL_COLUMNS = {
-    "coefficient": ("uncertainty_low", "uncertainty_high"),
+    "coefficient": ("interval_low", "interval_high"),
     "power_loss": ("power_loss_low", "power_loss_high"),
 }
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
-from ..estimate import FrictionResult, Uncertainty, friction
+from ..estimate import FrictionResult, Uncertainty, friction, row_of_uncertainty
 from ..models import prepare, prepare_on_maps
 from ..models.shared import (
     SAMPLING_ERROR,
@@ -157,14 +157,12 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
 
 
 def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]:
-    """Return the numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and as text its
-    status and the assumptions that do not hold, by the ``numerics`` of its study."""
+    """Return the numbers of a point by name, those of its uncertainty among them, and as text its status and the assumptions
+    that do not hold, by the ``numerics`` of its study."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
-    errors = {name: value for name, value in vars(outcome.uncertainty).items() if name not in NUMBERS}  # f is not one
-    numbers |= {f"uncertainty_{name}": value for name, value in errors.items() if isinstance(value, float)}
-    numbers |= zip(INTERVAL_COLUMNS["coefficient"], outcome.uncertainty.interval)
+    numbers |= row_of_uncertainty(outcome.uncertainty)
     numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
     notes = (*_missed_sampling_tolerance(outcome.uncertainty), *_accepted_model_error(outcome, numerics))
     violations = (*outcome.validity, *notes)

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,10 @@ from numpy.typing import ArrayLike
 from .._base import Renamed, Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
-from ..estimate import MethodUse, cited, methods_of
+from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, methods_of
 from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import warnings_in_cell
-from ..quantities import NUMBERS, OF_UNCERTAINTY
+from ..quantities import COLUMN_OF_ERROR, NUMBERS
 from ..scene import Scene
 from .best import best, best_mean
 from .interpolate import Interpolant, through
@@ -35,7 +34,13 @@ from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
-COLUMNS_OF_ERRORS = (*chain(*INTERVAL_COLUMNS.values()), *(f"uncertainty_{name}" for name in OF_UNCERTAINTY))
+COLUMNS_OF_ERRORS = (*UNCERTAINTY_COLUMNS, *INTERVAL_COLUMNS["power_loss"])
+# Names of columns by earlier ones, which a study still takes.
+OLD_COLUMNS = {f"uncertainty_{name}": column for name, column in COLUMN_OF_ERROR.items()} | {
+    "uncertainty_low": "interval_low",
+    "uncertainty_high": "interval_high",
+    "uncertainty_tolerance": "sampling_tolerance",
+}
 # Points that a process of an executor receives at once, at most, and jobs that a study has at least where it has so many points.
 # Choices: more points wait for longer, fewer cost messages; fewer jobs leave processes idle.
 POINTS_AT_ONCE = 8
@@ -125,6 +130,7 @@ class StudyResult(Renamed, Shown):
     def __getitem__(self, name: str) -> np.ndarray:
         if name in (STATUS, VALIDITY):
             return self.status if name == STATUS else self.validity
+        name = OLD_COLUMNS.get(name, name)
         if name not in self.columns:
             raise InputError(f"a study has no column {name!r}{validate.nearest(name, self.columns)}; see .columns")
         return self.columns[name]
@@ -135,7 +141,7 @@ class StudyResult(Renamed, Shown):
         if good.any():
             f = self["coefficient"][good]
             facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
-        unknown = int(np.isnan(self["uncertainty_low"][good]).sum()) if "uncertainty_low" in self.columns else 0
+        unknown = int(np.isnan(self["interval_low"][good]).sum()) if "interval_low" in self.columns else 0
         if unknown:
             facts["without interval"] = str(unknown)
         counts = {"failed": self.failed, "not computed": self.missing, "with warnings": self.with_warnings}
@@ -219,7 +225,7 @@ class StudyResult(Renamed, Shown):
             has_contact=above("contact_load"),
             has_film=above("film_load"),
             slides=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),
-            is_sampled=above("uncertainty_sampling"),
+            is_sampled=above("sampling_error"),
             has_inlet_heat=bool((factor < 1).any()),
             has_film_heat=above("film_temperature_rise"),
             has_flash=above("flash_temperature_rise"),

@@ -240,7 +240,7 @@ def _draw_intervals(
 
 def _label_intervals(axes: Axes, result: Any, *, bands: bool) -> None:
     """Name the bands in the key of lines, if there are some."""
-    if bands and np.isfinite(result["uncertainty_low"]).any():
+    if bands and np.isfinite(result["interval_low"]).any():
         axes.fill_between([], [], [], color=figures.GREY, alpha=0.3, lw=0, label=BAND)
 
 

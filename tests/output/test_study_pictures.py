@@ -123,7 +123,7 @@ def made_study(vary, speeds):
     along = {"points": speeds} if isinstance(speeds, dict) else {"speeds": speeds}
     plan = lubfric.plan_study(SCENE, vary, **along)
     f = np.linspace(0.03, 0.12, int(np.prod(plan.shape))).reshape(plan.shape)
-    columns = {"coefficient": f, "uncertainty_low": 0.8 * f, "uncertainty_high": 1.3 * f}
+    columns = {"coefficient": f, "interval_low": 0.8 * f, "interval_high": 1.3 * f}
     columns |= {"power_loss": 10 * f, "power_loss_low": 8 * f, "power_loss_high": 13 * f}
     return StudyResult(plan, columns, np.full(f.shape, "converged", dtype=object), np.full(f.shape, "", dtype=object))
 
@@ -305,7 +305,7 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
     assert all(" ".join(axes.get_title().split()).endswith("% of the variance of ln f") for axes in panels[:2])
     assert "range of the points" in names and drawn[0].get_suptitle() == f"{SCENE.name} (model: paper)"
     low = np.where(np.arange(f.size) < 9, 0.8 * f.ravel(), np.nan).reshape(f.shape)
-    some = {"coefficient": f, "uncertainty_low": low, "uncertainty_high": low + 0.5 * f}
+    some = {"coefficient": f, "interval_low": low, "interval_high": low + 0.5 * f}
     options = PictureOptions(width=WIDTHS["column"])
     study_pictures.plot_study(tmp_path / "study.png", replace(result, columns=result.columns | some), options)
     shown = drawn[1].legends[0].get_title().get_text()

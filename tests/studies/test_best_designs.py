@@ -23,9 +23,9 @@ VARY = {"surface.sq": SQ, "bodies.load": LOADS, "bodies.material": MATERIALS}
 def made(f, half_width, scene=SCENE, **plan):
     """A study of ``VARY`` at ``SPEEDS`` with made numbers: nothing is solved."""
     planned = lubfric.plan_study(scene, **({"vary": VARY, "speeds": SPEEDS} | plan))
-    columns = {"coefficient": f, "uncertainty_low": f - half_width, "uncertainty_high": f + half_width}
+    columns = {"coefficient": f, "interval_low": f - half_width, "interval_high": f + half_width}
     columns |= {"power_loss": 10 * f, "power_loss_low": 10 * (f - half_width), "power_loss_high": 10 * (f + half_width)}
-    columns |= {"film_load": np.ones(planned.shape), "uncertainty_model": half_width / np.abs(f)}
+    columns |= {"film_load": np.ones(planned.shape), "model_error": half_width / np.abs(f)}
     numbers = dict.fromkeys(lubfric.study(SCENE, {}, [0.3]).columns, np.zeros(planned.shape)) | columns
     return StudyResult(planned, numbers, np.full(planned.shape, "converged"), np.full(planned.shape, "", dtype=object))
 
@@ -158,7 +158,7 @@ def with_shared_range(vary, f, part, own=0.0):
     scene = SCENE.with_(bodies={"boundary_friction_coefficient": [0.09, 0.15]})
     values = np.array(f)[:, None]
     made_study = made(values, values * math.hypot(part, own), scene=scene, vary=vary, speeds=[0.1])
-    parts = {"uncertainty_inputs": np.full(values.shape, part), "uncertainty_model": np.full(values.shape, own)}
+    parts = {"input_error": np.full(values.shape, part), "model_error": np.full(values.shape, own)}
     return replace(made_study, columns=made_study.columns | parts)
 
 
@@ -181,9 +181,9 @@ def test_a_range_that_moves_one_design_alone_is_not_left_out():
     """As f_b of a design that touches beside one with a full film."""
     result = with_shared_range({"surface.sq": SQ[:2]}, [0.05, 0.08], 0.4)
     unlike = {
-        "uncertainty_inputs": np.array([[0.0], [0.4]]),
-        "uncertainty_low": np.array([[0.05], [0.048]]),
-        "uncertainty_high": np.array([[0.05], [0.112]]),
+        "input_error": np.array([[0.0], [0.4]]),
+        "interval_low": np.array([[0.05], [0.048]]),
+        "interval_high": np.array([[0.05], [0.112]]),
     }
     (one,) = replace(result, columns=result.columns | unlike).best()
     assert len(one.rivals) == 1

@@ -376,7 +376,7 @@ HOT = lubfric.plan_study(
 def stand_in(model_error=0.4):
     """A result of these points with made-up numbers: nothing is solved."""
     f = np.array([0.1, 0.2, 0.3])
-    columns = {name: np.full(3, model_error) for name in ("uncertainty_low", "uncertainty_high", "uncertainty_model")}
+    columns = {name: np.full(3, model_error) for name in ("interval_low", "interval_high", "model_error")}
     status = np.array(["converged"] * 3, dtype=object)
     columns |= {"coefficient": f, "power_loss": f}
     return StudyResult(HOT, columns, status, np.array([""] * 3, dtype=object))

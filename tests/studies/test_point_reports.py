@@ -51,7 +51,7 @@ def test_threads_report_in_this_process_and_failures_are_outcomes():
 def test_points_without_an_interval_are_counted():
     """A single patch has no sampling error, so that its points have no interval."""
     result, _ = reported(speeds=SPEEDS)
-    count = int(np.isnan(result["uncertainty_low"]).sum())
+    count = int(np.isnan(result["interval_low"]).sum())
     assert count > 0 and f"without interval {count}" in repr(result)
     strips = lubfric.study(SCENE.with_(numerics={"sampling": "strips", "model": "paper"}), speeds=SPEEDS)
     assert "without interval" not in repr(strips)
@@ -62,12 +62,12 @@ def test_the_report_says_where_a_patch_has_no_interval_and_how_short_it_is_there
     scene = SCENE.with_(motion={"slide_roll_ratio": 0.5}, numerics={"model": "paper"})
     result = lubfric.study(scene, vary={"bodies.load": [1.0, 4.0]}, speeds=[0.1])
     low = np.array([0.01, np.nan]).reshape(result.status.shape)
-    words = why_no_intervals(replace(result, columns=result.columns | {"uncertainty_low": low}))
+    words = why_no_intervals(replace(result, columns=result.columns | {"interval_low": low}))
     assert "not known at 1 point (total load 4 N)" in words
     here, there = (float(number) for number in re.search(r"is ([\d.]+) half-widths .* and ([\d.]+) at", words).groups())
     assert there / here == pytest.approx(2, rel=0.01)
     assert here == pytest.approx(48 * 1.1e-6 / scene.with_(bodies={"load": 4.0}).bodies.half_width, rel=0.01)
-    assert why_no_intervals(replace(result, columns=result.columns | {"uncertainty_low": np.ones_like(low)})) == ""
+    assert why_no_intervals(replace(result, columns=result.columns | {"interval_low": np.ones_like(low)})) == ""
 
 
 def test_points_of_a_store_are_not_reported_again(tmp_path):

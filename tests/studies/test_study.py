@@ -92,7 +92,34 @@ def test_warnings_and_accepted_points_are_marked(tmp_path):
     rows = list(csv.DictReader((tmp_path / "t.csv").read_text().splitlines()))
     assert [row["validity"] for row in rows] == result.validity.ravel().tolist()
     assert {name for name in rows[0] if "[" not in name} == {"numerics.accept", "status", "validity"}
-    assert {"uncertainty_length [m]", "uncertainty_numerical [-]", "speed [m/s]"} <= set(rows[0])
+    assert {"line_length [m]", "numerical_error [-]", "speed [m/s]"} <= set(rows[0])
+
+
+def test_all_tables_have_one_name_for_one_number(tmp_path):
+    """A point of a Stribeck curve, of a traction curve and of a study is a row of the same numbers, whose headings agree but for
+    what each table is over."""
+    lines = {
+        "stribeck": lubfric.studies.csv_bytes(lubfric.stribeck(SCENE, [0.03])),
+        "traction": lubfric.studies.csv_bytes(lubfric.traction(SCENE, [SCENE.motion.slide_roll_ratio], speed=0.03)),
+    }
+    study = lubfric.study(SCENE, {}, [0.03])
+    study.to_csv(tmp_path / "study.csv")
+    lines["study"] = (tmp_path / "study.csv").read_bytes()
+    rows = {name: next(csv.DictReader(text.decode().splitlines())) for name, text in lines.items()}
+    texts = {"status", "validity", "uncertainty", "ratio [-]"}
+    numbers = {name: {key: float(cell) for key, cell in row.items() if key not in texts} for name, row in rows.items()}
+    assert set(numbers["study"]) == set(numbers["stribeck"]) == set(numbers["traction"])
+    assert {"interval_low [-]", "model_error_high [-]", "input_error_low [-]"} <= set(numbers["study"])
+    for key, number in numbers["stribeck"].items():
+        assert numbers["traction"][key] == pytest.approx(number, nan_ok=True), key
+        assert numbers["study"][key] == pytest.approx(number, nan_ok=True), key
+
+
+def test_a_study_takes_the_earlier_names_of_its_columns(serial):
+    for old, column in {"low": "interval_low", "sampling": "sampling_error", "length": "line_length"}.items():
+        assert serial[f"uncertainty_{old}"] is serial[column]
+    with pytest.raises(lubfric.InputError, match="no column"):
+        serial["uncertainty_of_all"]
 
 
 def test_temperatures_are_varied_with_a_viscosity():

@@ -293,7 +293,7 @@ def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys
     (tmp_path / "small.toml").write_text(scene.to_toml())
     (tmp_path / "s.toml").write_text('scene = "small.toml"\nspeeds = [0.1, 1.0]\n[vary]\nbodies.load = [3.0, 5.5]\n')
     assert main(["study", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == 0
-    above = lubfric.open_study(tmp_path / "out")["uncertainty_sampling"].ravel() > 1e-3
+    above = lubfric.open_study(tmp_path / "out")["sampling_error"].ravel() > 1e-3
     where = f"At point{'s' if above.sum() > 1 else ''} {' and '.join(str(i + 1) for i in np.flatnonzero(above))}"
     said, page = capsys.readouterr().err, (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     with (tmp_path / "out" / "study.csv").open(encoding="utf-8") as table:
@@ -340,7 +340,7 @@ def test_console_report_and_table_count_the_same_warnings_and_notes(tmp_path, mo
         cells = [row["validity"] for row in csv.DictReader(file)]
     notes = sum("note: " in cell for cell in cells)
     warnings = sum("warning: " in cell for cell in cells)
-    above = result["uncertainty_model"].ravel() > model_tolerance
+    above = result["model_error"].ravel() > model_tolerance
     assert ["note: model-form error of f is" in cell for cell in cells] == above.tolist()
     assert above.any() == (model_tolerance < 1)
     counts = f"arnings at {warnings} of 6 points{f', notes at {notes} ' if notes else '; '}"
