@@ -13,9 +13,9 @@ from ..shared import Prepared
 from .moving_strip import (
     STEPS_BEFORE,
     effort_of,
-    first_moments,
     forecast_work,
-    least_steps,
+    moments_after_rest,
+    steps_in_time,
     strip_at_rest,
     work_of_step_in_time,
 )
@@ -66,12 +66,12 @@ def first_steps(prepared: Prepared, speed: float) -> FirstSteps | None:
             spent = of_rest
             has_target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance) is not None
             cell = rest.problem.spacing[0]
-            steps = least_steps(scene, bodies, speed, cell=cell, effort=effort, has_target=has_target)
+            planned = steps_in_time(scene, bodies, speed, cell=cell, effort=effort, has_target=has_target)
             forecast: float | None = None
-            for _ in first_moments(scene, bodies, speed, rest=rest, effort=effort):
+            for _ in moments_after_rest(rest, bodies, speed, step=planned.step, effort=effort):
                 works.append(meter.spent - spent)
                 spent = meter.spent
-                forecast = forecast_work(works, steps=steps, rest=rest.work)
+                forecast = forecast_work(works, steps=planned.least, rest=rest.work)
                 if forecast is not None:
                     break
     except ConvergenceError:

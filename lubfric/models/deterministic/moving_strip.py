@@ -289,18 +289,21 @@ def solve_moving_strip(
     effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     near = None if start is None else start.at_rest
     rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, start=near, effort=effort)
-    step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
-    count = count if most_steps is None else min(count, most_steps)
-    required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
+    cell = rest.problem.spacing[0]
+    planned = steps_in_time(
+        scene, bodies, speed, cell=cell, effort=effort, has_target=target is not None, most_counted=most_steps
+    )
+    step = planned.step
+    discarded = planned.discarded
+    required = planned.least_counted
     travelled = _travelled(bodies, speed, step, film_half_width(rest.problem.line))
-    passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     ends = InputEnds(oils=oils_at_ends(scene), hardness=hardness_at_ends(scene))
     no_ends = InputEnds(oils={}, hardness=())
     records: list[MomentRecord] = []
     state_after_discard = rest.result.state
     forecast: float | None = None
-    for number, moment in enumerate(islice(passing, 1, None), 1):
+    for number, moment in enumerate(moments_after_rest(rest, bodies, speed, step=step, effort=effort), 1):
         records.append(_recorded(moment, summits_at(number * step), ends if number > discarded else no_ends))
         report_progress("moving roughness", number, discarded + required)
         if forecast is None and number < discarded + required:
@@ -312,7 +315,7 @@ def solve_moving_strip(
             state_after_discard = moment.at.state
         if number == discarded + required:
             places = _places_of(records[discarded:], moment.result, travelled)
-            enough = required if target is None else _required_moments(places, target, required, count)
+            enough = required if target is None else _required_moments(places, target, required, planned.most_counted)
             if enough == required:
                 break
             required = enough
@@ -350,14 +353,47 @@ def forecast_work(works: Sequence[float], *, steps: int, rest: float) -> float |
     return rest + sum(works) + float(np.mean(seen)) * max(0, steps - len(works))
 
 
-def least_steps(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, *, cell: float, effort: MovingEffort, has_target: bool
-) -> int:
-    """Return the number of steps in time of `solve_moving_strip`, at least, on cells [m] along x; ``has_target``: whether it ends when
-    its `SampleTarget` is reached."""
-    step, discarded, count = _steps_of(scene, bodies, speed, cell, effort)
+@dataclass(frozen=True, kw_only=True)
+class StepsInTime:
+    """The steps in time of `solve_moving_strip`.
+
+    Attributes
+    ----------
+    step : length [s] of each
+    discarded : number of the first ones that are discarded
+    least_counted : number of those after them that count, at least
+    most_counted : the same, at most
+    """
+
+    step: float
+    discarded: int
+    least_counted: int
+    most_counted: int
+
+    @property
+    def least(self) -> int:
+        """The number of all steps, at least."""
+        return self.discarded + self.least_counted
+
+
+def steps_in_time(
+    scene: Scene,
+    bodies: Sequence[RoughBody],
+    speed: float,
+    *,
+    cell: float,
+    effort: MovingEffort,
+    has_target: bool,
+    most_counted: int | None = None,
+) -> StepsInTime:
+    """Return the steps in time of `solve_moving_strip` on cells [m] along x; ``has_target``: whether it ends when its `SampleTarget`
+    is reached; ``most_counted``: number of moments that count, at most (None: a complete pass of the map)."""
     line = scene.line_contact(abs(speed))
-    return discarded + (min(count, _pilot(line, bodies, step)) if has_target else count)
+    fastest = max(bodies, key=lambda body: abs(body.speed))
+    (step, discarded, of_pass) = _steps(line, cell, fastest.speed, fastest.surface.size[0], effort)
+    most = of_pass if most_counted is None else min(of_pass, most_counted)
+    least = min(most, _pilot(line, bodies, step)) if has_target else most
+    return StepsInTime(step=step, discarded=discarded, least_counted=least, most_counted=most)
 
 
 def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
@@ -368,11 +404,10 @@ def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
     )
 
 
-def first_moments(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, *, rest: StripSolution, effort: MovingEffort
+def moments_after_rest(
+    rest: StripSolution, bodies: Sequence[RoughBody], speed: float, *, step: float, effort: MovingEffort
 ) -> Iterator[Moment]:
-    """Yield the moments of `solve_moving_strip` after ``rest``, the strip at rest, without end."""
-    (step, *_) = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
+    """Yield the moments of `solve_moving_strip` after ``rest``, the strip at rest, in steps of ``step`` [s], without end."""
     passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     return islice(passing, 1, None)
 
@@ -665,14 +700,6 @@ def effort_for(line: LineContact, sq: float, cell: float) -> MovingEffort:
     smooth = line.moes_film > SMALL_WAVES * sq
     narrow = line.half_width < CELLS_FOR_LOOSE_STEPS * cell
     return TIGHT if starved or light or smooth or narrow else ECONOMICAL
-
-
-def _steps_of(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, cell: float, effort: MovingEffort
-) -> tuple[float, int, int]:
-    """Return the `_steps` of ``bodies`` on cells [m] along x."""
-    fastest = max(bodies, key=lambda body: abs(body.speed))
-    return _steps(scene.line_contact(abs(speed)), cell, fastest.speed, fastest.surface.size[0], effort)
 
 
 def _steps(
