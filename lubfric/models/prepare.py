@@ -8,7 +8,7 @@ from .._base import validate, with_default_errors, work_apart_from_limit
 from ..contact import RoughContact
 from ..errors import InputError
 from ..samples import Sample, check_map, combined_maps, sample_of
-from ..scene import Bodies, Scene, hint_unusual_values
+from ..scene import Bodies, Scene, hint_unusual_values, longest_contact
 from ..surface import Surface
 from .registry import check_by_model
 from .shared import (
@@ -152,7 +152,8 @@ def _has_same_contact(scene: Scene, old: Scene) -> bool:
     """Return whether contact and cells of both scenes are the same to the bit."""
     names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
     same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)
-    return same and _without_friction(scene.bodies) == _without_friction(old.bodies)
+    same_length = longest_contact(scene).bodies == longest_contact(old).bodies
+    return same and same_length and _without_friction(scene.bodies) == _without_friction(old.bodies)
 
 
 def _without_friction(bodies: Bodies) -> Bodies:

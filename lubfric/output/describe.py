@@ -42,7 +42,7 @@ from ..models.shared import (
 )
 from ..quantities import counted
 from ..samples import Sample, check_map, sample_of
-from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values
+from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, sampled_times
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import (
@@ -54,7 +54,6 @@ from ..time import (
     may_move_roughness,
     periods,
     run_model_of,
-    sampled_times,
     scene_at,
     speeds_of_run,
 )
@@ -241,8 +240,10 @@ def estimate_scene(
         fastest = _fastest_moment(scene)
         top = fastest.motion.entrainment_speed
         at += [(top, violation) for violation in violations_by_inlet_of_moment(fastest, top)]
-    may_refuse = Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD
-    refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption == may_refuse])
+    may_refuse = {Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD}
+    if scene.transient is not None and not run_model_of(scene).continues_patch:
+        may_refuse.add(Assumption.LONG_PATCH)
+    refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption in may_refuse])
     scene_map = sample.whole_map
     notes = [note for note in scene_map.notes if "nm as measured" in note or " µm used" in note]
     effects: tuple[ExpectedEffect, ...] = ()

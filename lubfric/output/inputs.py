@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
-from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, source_of, typical
-from ..time import sampled_times, scene_at
+from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, sampled_times, source_of, typical
+from ..time import scene_at
 from ..units import worded
 
 # Keys that mean nothing where a history of this name is given.

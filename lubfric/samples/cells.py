@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from ..scene import Roughness, Scene, has_moving_roughness
+from ..scene import Bodies, Roughness, Scene, has_moving_roughness, longest_contact
 from ..surface import Surface, correlation_length
 from ..units import worded
 
@@ -35,7 +35,7 @@ CELLS_PER_LENGTH = 4.0
 # correlation length decides (`python -m verification.campaigns.constants`).
 CELLS_PER_HALF_WIDTH = 2.0
 
-# Cells in half of the `length_of_rough_contact`, at least, where roughness moves: with fewer the stated error by the cells of the
+# Cells in half of the length of the rough contact (`length_of_rough_contact`), at least, where roughness moves: with fewer the stated error by the cells of the
 # deterministic model, in proportion to the third power of their length (docs/tolerances.md), is above 6 %. A needle roller with
 # ridges along the motion had 72 % on 4 cells, 9 % on 8. A choice between error and work, which is in proportion to its square.
 CELLS_PER_HALF_WIDTH_IN_MOTION = 6.0
@@ -146,7 +146,7 @@ def half_width_to_resolve(scene: Scene, sq: float) -> float:
 def longest_cell_in_motion(scene: Scene, sq: float) -> float:
     """Return the length [m] along x of the longest cells that resolve the rough contact of ``sq`` [m] where roughness moves
     (`CELLS_PER_HALF_WIDTH_IN_MOTION`)."""
-    return 0.5 * length_of_rough_contact(scene, sq) / CELLS_PER_HALF_WIDTH_IN_MOTION
+    return 0.5 * _length_to(scene.bodies, sq) / CELLS_PER_HALF_WIDTH_IN_MOTION
 
 
 def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float, reach: float) -> Cells:
@@ -212,21 +212,26 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def reach_of(scene: Scene, sq: float) -> float:
-    """Return the length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the
-    ends of the Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
-    bodies = scene.bodies
-    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * HIGHEST_SUMMITS * sq)
+    """Return the length [m] along x that contains the contact at all times: it ends where an undeformed cylinder, resting on
+    the ends of the Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
+    rise = HIGHEST_SUMMITS * sq
+    return _length_to(longest_contact(scene, rise).bodies, rise)
 
 
 def length_of_rough_contact(scene: Scene, sq: float) -> float:
-    """Return the length [m] along x below which the ends of a patch may cut the contact off: an undeformed cylinder,
-    resting on the ends of the Hertz strip, has risen by one Sq there.
+    """Return the length [m] along x below which the ends of a patch may cut the contact off, at some time of a run: an
+    undeformed cylinder, resting on the ends of the Hertz strip, has risen by one Sq there.
 
     Of generated patches at loads of 0.5 to 40 times the roughness, those that ended at 0.25 and 0.5 Sq had more than 1 % of
     the contact load on their edge columns, those at 1 Sq and above less.
     """
-    bodies = scene.bodies
-    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * sq)
+    return _length_to(longest_contact(scene, sq).bodies, sq)
+
+
+def _length_to(bodies: Bodies, rise: float) -> float:
+    """Return the length [m] along x between the places where the undeformed cylinder, resting on the ends of the Hertz strip of
+    ``bodies``, has risen by ``rise`` [m]."""
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * rise)
 
 
 def longest_coarsening(

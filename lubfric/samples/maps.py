@@ -11,10 +11,10 @@ from scipy.fft import next_fast_len
 from .._base import validate
 from ..errors import InputError
 from ..quantities import KEYS
-from ..scene import Bodies, ContactDomain, Roughness, Scene, named
+from ..scene import Bodies, ContactDomain, LongestContact, Roughness, Scene, longest_contact, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface, shorter_in_words
 from ..units import converted, worded
-from .cells import no_cells
+from .cells import length_of_rough_contact, no_cells
 
 # Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
 # contacts the contact is wider than the Hertz strip by a factor of this order.
@@ -74,7 +74,9 @@ def way_to_longer_line(scene: Scene, surface: Surface) -> str:
 def way_to_longer_patch(scene: Scene, surface: Surface) -> str:
     """Return how the patch ``surface`` of ``scene`` becomes longer along the motion, as text."""
     if not is_measured(scene):
-        return "a contact.shape that is longer along x"
+        needed = math.ceil(length_of_rough_contact(scene, surface.sq) / surface.spacing[0])
+        cells = f" of at least {needed} cells" if needed > surface.shape[0] else " that is longer"
+        return f"a contact.shape{cells} along x"
     (name, _) = limiting_map(scene, surface, 0)
     mirror = f"{name}.extension = 'mirror', which continues the map by its mirror image"
     return f"{mirror}, or a map that is longer along the motion{_axis_of_file(scene, name, 0)}"
@@ -154,7 +156,6 @@ def check_map(scene: Scene, surface: Surface, whole: Surface) -> None:
         return
     half_width = scene.bodies.half_width
     step = surface.spacing[0]
-    length = surface.size[0]
     if step > half_width:
         error = InputError(
             f" = {worded(step, 'm')} along x does not resolve the Hertz strip: {load_in_words(scene.bodies)}",
@@ -165,25 +166,40 @@ def check_map(scene: Scene, surface: Surface, whole: Surface) -> None:
         )
         error.hint(_load_in_kilonewtons(scene, step), asks=True)
         raise error
-    if length < 2 * half_width:
+    length = surface.size[0]
+    longest = longest_contact(scene)
+    needed = 2 * longest.bodies.half_width
+    if length < needed:
         (name, file) = limiting_map(scene, surface, 0)
         what = "the patch (contact.shape x contact.spacing)"
         ways = "a larger contact.shape"
-        if file and whole.size[0] < 2 * half_width:
+        if file and whole.size[0] < needed:
             length = whole.size[0]
             what = f"the map of the {name} ({file})"
-            ways = f"{_way_to_other_axis(scene, whole, name)}a longer map, {_ways_with_short_map(name)}"
+            ways = f"{_way_to_other_axis(scene, whole, name, needed)}a longer map, {_ways_with_short_map(name)}"
         raise InputError(
             f"{what} is {worded(length, 'm')} long in x, the direction of motion; allowed: at least the Hertz strip, "
-            f"{worded(2 * half_width, 'm')}: {ways}; {load_in_words(scene.bodies)}; {CHECK_LOAD}"
+            f"{worded(needed, 'm')}: {ways}; {_longest_in_words(longest)}; {CHECK_LOAD}"
         )
 
 
-def _way_to_other_axis(scene: Scene, whole: Surface, name: str) -> str:
-    """Return that the ``whole`` map, too short along x for the Hertz strip, is long enough along its other axis, as text; "" where
-    it is not. ``name``: the section of its file."""
+def _longest_in_words(longest: LongestContact) -> str:
+    """Return the load, and the half-width that it gives, of the ``longest`` contact of a scene; in a run in time with its moment,
+    as text."""
+    bodies = longest.bodies
+    if longest.time is None:
+        return load_in_words(bodies)
+    return (
+        f"the contact is longest at t = {worded(longest.time, 's')}, under {worded(bodies.load, 'N')} at a reduced radius of "
+        f"{worded(bodies.radius, 'm')}, with a Hertz half-width of {worded(bodies.half_width, 'm')}"
+    )
+
+
+def _way_to_other_axis(scene: Scene, whole: Surface, name: str, needed: float) -> str:
+    """Return that the ``whole`` map, too short along x for the ``needed`` length [m], is long enough along its other axis, as
+    text; "" where it is not. ``name``: the section of its file."""
     across = whole.size[1]
-    if across < 2 * scene.bodies.half_width:
+    if across < needed:
         return ""
     other = "x" if getattr(scene, name).motion_axis == "y" else "y"
     return f"{name}.motion_axis = {other!r} (if the motion is along {other} of the file, {worded(across, 'm')} long), "
@@ -291,7 +307,7 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     domain = scene.contact
     cylinder = scene.contact.geometry == "cylinder"
     mirrored = is_extended(scene)
-    reach = PATCH_HALF_WIDTHS * scene.bodies.half_width
+    reach = PATCH_HALF_WIDTHS * longest_contact(scene).bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)
     if mirrored and (domain.shape or cylinder):

@@ -17,7 +17,7 @@ import numpy as np
 from .._base import FieldsOnly, FloatArray, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..scene import ROUGH_SECTIONS, Roughness, Scene, has_moving_roughness
+from ..scene import ROUGH_SECTIONS, Roughness, Scene, has_moving_roughness, longest_contact
 from ..surface import Surface, surface_generator
 from .cells import (
     COLUMNS_MULTIPLE,
@@ -399,7 +399,7 @@ def _window_starts(
     """Return the first columns of windows that the map ``surface`` holds independently, on these ``cells``; where they are
     few, of windows that reach over the ends of its first ``columns_of_map`` as well: what follows is their mirror image, under
     which the same asperities carry the load once more."""
-    half_width = scene.bodies.half_width
+    half_width = longest_contact(scene).bodies.half_width
     dx = surface.spacing[0]
     columns = cells.columns * cells.coarsening[0]
     step = max(1, round(max(WINDOW_DISTANCE * lengths[0], 2 * half_width) / dx))

@@ -24,6 +24,7 @@ from .file import (
     write_template,
 )
 from .history import Constant, Harmonic, History, Ramp, Table
+from .moments import LongestContact, longest_contact, sampled_times
 from .numerics import Numerics
 from .plausible import (
     MOST_RATIO,

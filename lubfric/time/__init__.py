@@ -26,7 +26,7 @@ from .result import (
     time_scale,
 )
 from .run import raise_if_failed, run_in_time, transient
-from .scene_in_time import fastest_of_run, sampled_times, scene_at
+from .scene_in_time import fastest_of_run, scene_at
 from .start import speeds_of_run
-from .transient_deterministic import start_deterministic
+from .transient_deterministic import make_deterministic, start_deterministic
 from .transient_load_sharing import TransientLoadSharing

@@ -31,6 +31,7 @@ class RunModel:
     described : what computes the run of a scene, and which model-form error its interval has, as text
     model_in_words : the name of the model, as text
     solves_rough_film : whether its film is that between rough surfaces, whose smallest may be a gap that is assumed
+    continues_patch : whether a patch that is shorter than the contact is continued by its mirror image
     state_class : the class of what a step hands to the next beside its unknowns, which is saved after every step
     """
 
@@ -41,6 +42,7 @@ class RunModel:
     described: Callable[[Scene], str]
     model_in_words: str
     solves_rough_film: bool
+    continues_patch: bool
     state_class: type
 
 
@@ -58,6 +60,7 @@ LOAD_SHARING = RunModel(
     described=_load_sharing_in_words,
     model_in_words="load-sharing model",
     solves_rough_film=False,
+    continues_patch=False,
     state_class=ContactStep,
 )
 DETERMINISTIC_RUN = RunModel(
@@ -68,6 +71,7 @@ DETERMINISTIC_RUN = RunModel(
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     model_in_words="deterministic model",
     solves_rough_film=True,
+    continues_patch=True,
     state_class=State,
 )
 RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC_RUN}

@@ -4,16 +4,11 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
 from ..models.shared import film_lubricant, inlet_at
-from ..scene import Constant, History, Scene, Transient
+from ..scene import Constant, History, Scene, Transient, sampled_times
 
 # [-] slide-roll ratio beyond which a moment counts as one of sliding alone; a choice: any number far above 2 does.
 MOST_SLIDE_ROLL_RATIO = 1e6
-
-# Number of times at which the histories are sampled before a run begins. A choice: fewer miss short events.
-SAMPLED_TIMES = 257
 
 # [-] the speed of a body is U plus this part of u2 - u1; by definition.
 SLIDING_PART = {"surface": -0.5, "counterface": 0.5}
@@ -98,7 +93,7 @@ class WarmInlet(History):
         return self._warm(time, "before")
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Return the range that `SAMPLED_TIMES` times and every stop show."""
+        """Return the range that the `sampled_times` show."""
         return self._seen
 
     @cached_property
@@ -122,11 +117,3 @@ def inlet_viscosity(scene: Scene) -> History:
         if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
             return cold
     return WarmInlet(scene.with_(numerics={"heat": "on"}))
-
-
-def sampled_times(scene: Scene) -> list[float]:
-    """Return the times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all
-    stops and jumps."""
-    transient = transient_of(scene)
-    stops = {t for h in transient.histories for t in (*h.stops(transient.duration), *h.jumps(transient.duration))}
-    return sorted({*np.linspace(0, transient.duration, SAMPLED_TIMES).tolist(), *stops})

@@ -15,12 +15,12 @@ from ..models import prepare
 from ..models.load_sharing import PaperModel, PaperSolution, film_under, solve_balance, volume_residual
 from ..models.shared import Prepared, contact_on_joined_strips, scene_of
 from ..samples import Sample
-from ..scene import Constant, Scene
+from ..scene import Constant, Scene, sampled_times
 from .film_setting import NODE_FACTORS, LineHistory, make_setting, steady_start
 from .load_sharing_solver import ContactStep
 from .march import Step
 from .model import Start
-from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
+from .scene_in_time import inlet_viscosity, scene_at, sliding_at, transient_of
 from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
 # Speeds of a run at which its assumptions are checked: a choice between time and what is seen.

@@ -51,12 +51,12 @@ from ..models.shared import (
     violations_by_thickness,
 )
 from ..quantities import FRICTION_FORCES, OF_MOMENT
-from ..scene import Constant, Scene, moving_bodies
+from ..scene import Constant, Scene, longest_contact, moving_bodies, sampled_times
 from .film_setting import WET_PRESSURE
 from .march import Memory, Progress, Step
 from .model import Output, Start
 from .moment_columns import ends_of_film, motion_columns, sense_of_friction
-from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
+from .scene_in_time import SLIDING_PART, scene_at, sliding_at, surface_speed, transient_of
 from .start import check_start
 
 # Choices between work and error, and limits for time and memory.
@@ -314,7 +314,9 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     speed = transient.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(transient.duration)
     line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / transient.duration)
-    upstream, downstream = reach(line, surface.sq)
+    longest = longest_contact(scene).bodies
+    longest_line = replace(line, load_per_width=longest.load / longest.width, radius=longest.radius)
+    upstream, downstream = reach(longest_line, surface.sq)
     base = lay_out(
         replace(surface, heights=0.0 * surface.heights, mask=None),
         line,

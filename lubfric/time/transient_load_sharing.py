@@ -7,13 +7,13 @@ import numpy as np
 from ..film import cubic
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
-from ..scene import Scene, moving_bodies
+from ..scene import Scene, moving_bodies, sampled_times
 from .film_setting import TIME_SHARE, Setting
 from .load_sharing_solver import LoadSharingSolver
 from .march import Progress
 from .model import Output
 from .moment import load_sharing_moment
-from .scene_in_time import sampled_times, surface_speed, transient_of
+from .scene_in_time import surface_speed, transient_of
 
 # Tolerances of the volume balance and of the contact over the largest local error of a step, at most [-]: what they leave
 # differs from step to step, and looks like an error in time that no shorter step reduces. docs/examples/cam.toml takes 950

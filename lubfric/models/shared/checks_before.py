@@ -21,7 +21,7 @@ from ...samples import (
     way_to_longer_line,
     way_to_longer_patch,
 )
-from ...scene import Bodies, Scene, unusual_values
+from ...scene import Bodies, Scene, longest_contact, unusual_values
 from ...surface import Surface, advised_form, correlation_length, rms_slope
 from ...units import worded
 from .checks import (
@@ -168,9 +168,16 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
     """Yield the violations by a patch ``surface`` of the ``whole`` map whose ends may cut the contact off."""
     needed = length_of_rough_contact(scene, surface.sq)
     length = surface.size[0]
-    if surface.sq == 0 or surface.periodic_axes[0] or length >= needed:
+    may_be_cut = not surface.periodic_axes[0] or _runs_on_patch(scene)
+    if surface.sq == 0 or not may_be_cut or length >= needed:
         return
     refuses = f"the load-sharing model refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns"
+    others = "the quick and the deterministic model continue the patch by its mirror image, and by default one of them then gives the answer"
+    longest = ""
+    time = longest_contact(scene, surface.sq).time
+    if scene.transient is not None:
+        others = "the deterministic model continues the patch in time"
+        longest = "" if time is None else f" at t = {worded(time, 's')}"
     cut = ""
     if is_measured(scene) and scene.contact.shape is None and whole.size[0] > length * UNCUT_LENGTH:
         cut = f"the map, {worded(whole.size[0], 'm')} long, is cut to a whole number of the longer cells of this contact; "
@@ -180,10 +187,15 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
         value=1e6 * length,
         limit=1e6 * needed,
         unit="µm",
-        consequence=f"{cut}the contact of the rough surfaces is longer than the patch, which may cut off its ends; {refuses}; the quick "
-        "and the deterministic model continue the patch by its mirror image, and by default one of them then gives the answer",
+        consequence=f"{cut}the contact of the rough surfaces is longer than the patch{longest}, which may cut off its ends; {refuses}; "
+        f"{others}",
         recommendation=f"give {way_to_longer_patch(scene, surface)}",
     )
+
+
+def _runs_on_patch(scene: Scene) -> bool:
+    """Return whether ``scene`` is a run in time whose model solves its patch as it is, without continuing it."""
+    return scene.transient is not None and scene.numerics.model != "deterministic"
 
 
 def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: bool) -> Iterator[Violation]:
