@@ -12,7 +12,7 @@ from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
 from ..studies import in_words
-from ..time import TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
+from ..time import RunEstimate, TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
 from . import commands
 from .describe import FILES_SECONDS
 from .fields import npz_bytes
@@ -20,14 +20,13 @@ from .pictures import animate, plot_history
 from .progress import ProgressLine
 from .report import history_answer
 from .run_files import names_of_run
+from .time_left import TimeLeft
 
 # Part of the expected steps of a run between two lines of its progress. A choice: some 25 lines.
 PART_OF_LINE = 0.04
 
-# Part of the expected steps that is done before the time left is stated; before it, the first steps, which are many and
-# short, decide it. Measured in the run of a piston ring, where it is within a factor of 2 from there on.
-PART_OF_TIME_LEFT = 0.08
-
+# What `TimeLeft` calls the work before the first step of a run.
+BEFORE_STEPS = "before the first step"
 
 # Time without an output after which a line says how far the run is [s]. A choice: less fills the screen.
 MOST_SILENCE = 10.0
@@ -43,23 +42,23 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     """
     reached = 0.0
     continues = False
-    begun_at = time.monotonic()
-    first: float | None = None
     reported = 0.0
-    said_at = begun_at
+    said_at = time.monotonic()
     due = commands.paced()
     failure: LubfricError | None = None
     names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
-        nonlocal reached, first, reported, begun_at, said_at
+        nonlocal reached, reported, said_at
+        if reached == 0.0:
+            left.end(BEFORE_STEPS)
+            for each in stored_before(now) if continues else ():
+                left.omit(each)
+        left.end(now)
         reached = now
-        assert estimate.run is not None
-        part = estimate.run.part(now)
-        if first is None:
-            first = part if continues else 0.0
-            begun_at = time.monotonic()
-        shown.update(100.0 * part, 100.0)
+        part = run.part(now)
+        share = 100.0 * now / duration
+        shown.update(share, 100.0)
         is_end = now >= duration
         silent = time.monotonic() - said_at > MOST_SILENCE
         is_next = row is not None and (is_end or part >= reported + PART_OF_LINE)
@@ -67,8 +66,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             return
         reported = part
         said_at = time.monotonic()
-        left = "" if is_end else _time_left(part, first, said_at - begun_at)
-        head = f"{100 * part:.0f} % of the estimated steps{left}: t = {now:.5g} of {duration:g} s, "
+        time_left = "" if is_end else f", about {in_words(left.seconds + FILES_SECONDS)} left"
+        head = f"{share:.0f} % of the time{time_left}: t = {now:.5g} of {duration:g} s, "
         if row is None:
             commands.say(f"{head}between two outputs")
             return
@@ -81,6 +80,9 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
         )
 
+    def stored_before(now: float) -> list[float]:
+        return [each for each in left.expected if each != BEFORE_STEPS and each < now]
+
     def kept() -> str:
         if reached == 0.0:
             return f"the state that an earlier run saved is kept in {arguments.out}" if continues else ""
@@ -88,13 +90,16 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
     fastest = fastest_of_run(scene)
     begun = commands.run_begun(scene, arguments, names, kept)
-    with ProgressLine("%") as shown, begun as (folder, prepared, estimate):
+    with begun as (folder, prepared, estimate):
         continues = folder.unfinished.is_dir()
         if continues:
             commands.say(f"the run continues from {folder.unfinished}")
-        else:
+        assert estimate.run is not None
+        run = estimate.run
+        left = _time_left(scene, run)
+        with ProgressLine("%", left) as shown:
             shown.update(0.0, 100.0)
-        result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
+            result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:
@@ -109,12 +114,13 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         raise failure
 
 
-def _time_left(part: float, first: float, seconds: float) -> str:
-    """Return the time left of a run, as text, when the ``part`` [-] of its expected steps is done, and all after ``first``
-    took so many ``seconds``, pictures and files included; "" where that is too little to know it."""
-    done = part - first
-    left = seconds * (1.0 - part) / max(done, PART_OF_TIME_LEFT) + FILES_SECONDS
-    return f", about {in_words(left)} left" if done >= PART_OF_TIME_LEFT else ""
+def _time_left(scene: Scene, run: RunEstimate) -> TimeLeft:
+    """Return the time left of the ``run`` of a scene: its parts are the work before the first step, and the steps to each
+    output time [s]."""
+    assert scene.transient is not None
+    times = scene.transient.output_times.tolist()
+    ends = times if times[0] > 0 else times[1:]
+    return TimeLeft({BEFORE_STEPS: run.start_seconds} | dict(zip(ends, run.seconds_between(ends))))
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:

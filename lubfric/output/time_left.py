@@ -52,6 +52,10 @@ class TimeLeft:
             self._last = self._clock()
             self._last_work = self._counted()
 
+    def omit(self, point: Any) -> None:
+        """Report that a ``point`` is known, and takes no time."""
+        self.expected.pop(point, None)
+
     def end_next(self) -> None:
         """Report that the next point ended, where it is not known which one."""
         if self.expected:

@@ -4,7 +4,9 @@ from dataclasses import KW_ONLY, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from .._base import read_columns, validate
+import numpy as np
+
+from .._base import FloatArray, read_columns, validate
 from ..errors import InputError
 from ..quantities import KEYS
 from ..units import without_unit
@@ -69,6 +71,11 @@ class Transient:
     def histories(self) -> tuple[History, ...]:
         """The histories of all that changes."""
         return tuple(h for h in (getattr(self, name) for name in UNITS_OF_HISTORIES) if h is not None)
+
+    @property
+    def output_times(self) -> FloatArray:
+        """The times of the outputs [s]."""
+        return np.linspace(self.first_output, self.duration, self.outputs + 1)
 
     def __post_init__(self) -> None:
         validate.python_fields(self, "transient")

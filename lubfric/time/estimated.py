@@ -1,6 +1,7 @@
 """Estimated steps and processor time of a run in time. Nothing is solved."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,7 @@ CELL_STEP_SECONDS = 1.3e-7
 class RunEstimate:
     """About how many ``steps`` a run takes, and its processor ``seconds``.
 
+    ``start_seconds``: the part of these that is solved before the first step;
     ``times`` [s], ``steps_until``: how many of the steps are expected until each of these times, (n,); ``widest``: the
     work estimate at the speed that needs most strips of the roughness, whose sample all times share (None: the run has
     one strip).
@@ -80,10 +82,16 @@ class RunEstimate:
     times: np.ndarray
     steps_until: np.ndarray
     widest: PointWorkEstimate | None = None
+    start_seconds: float = 0.0
 
     def part(self, time: float) -> float:
         """Return the part [-] of the steps that is expected until ``time`` [s]."""
         return float(np.interp(time, self.times, self.steps_until) / self.steps_until[-1])
+
+    def seconds_between(self, times: Sequence[float]) -> list[float]:
+        """Return the processor seconds [s] of the steps until the first of ``times`` [s], and from each of them to the next."""
+        parts = [0.0, *(self.part(time) for time in times)]
+        return [(self.seconds - self.start_seconds) * each for each in np.diff(parts).tolist()]
 
 
 def estimated_deterministic(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
@@ -117,8 +125,16 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     changing = STEPS_OF_CHANGE * (STEP_TOLERANCE / tolerance) ** (1 / 3) * changed + begun
     steps_until = np.maximum(transient.outputs * times / transient.duration, changing)
     steps = float(steps_until[-1])
-    seconds = seconds_of_points(points) + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
-    return RunEstimate(steps=steps, seconds=seconds, times=times, steps_until=steps_until, widest=widest)
+    start_seconds = seconds_of_points(points)
+    seconds = start_seconds + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
+    return RunEstimate(
+        steps=steps,
+        seconds=seconds,
+        times=times,
+        steps_until=steps_until,
+        widest=widest,
+        start_seconds=start_seconds,
+    )
 
 
 def changes(scene: Scene, sq: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -181,7 +181,7 @@ def _with_times(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene
     if times is None:
         if section is None:
             raise InputError("scene has no [transient] table; give one, or output times in s")
-        return scene, np.linspace(section.first_output, section.duration, section.outputs + 1)
+        return scene, section.output_times
     times = checked_times(times)
     last = float(times[-1])
     until_last = Transient(last) if section is None else replace(section, duration=last, first_output=0.0)

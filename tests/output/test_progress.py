@@ -12,7 +12,6 @@ from lubfric.output import ProgressLine, main, run_history
 from lubfric.output import progress as module
 from lubfric.output.commands import moment_reports, say
 from lubfric.output.progress import CLEAR_LINE
-from lubfric.output.run_history import _time_left
 
 
 class Terminal(io.StringIO):
@@ -92,21 +91,15 @@ def test_a_bar_of_tqdm_takes_its_place_where_it_is_installed(monkeypatch):
     assert "1/4" in text and "a finished line\n" in text and "1 of 4 points" not in text
 
 
-def test_the_time_left_of_a_run_in_time_is_stated_when_it_is_known():
-    assert _time_left(0.05, 0.0, 60.0) == ""
-    assert _time_left(0.55, 0.5, 60.0) == ""  # a run that continues
-    assert _time_left(0.25, 0.0, 60.0) == ", about 3 min left"
-    assert _time_left(0.75, 0.5, 60.0) == ", about 61 s left"  # pictures and files included
-
-
 def test_a_run_in_time_says_how_far_it_is_before_its_first_output(monkeypatch, tmp_path, capsys):
     """It takes one process, also where that is written."""
     monkeypatch.setattr(run_history, "MOST_SILENCE", -1.0)
     plan = "[transient]\nduration = 3e-4\nfirst_output = 2e-4\noutputs = 1\n"
     (tmp_path / "s.toml").write_text(BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\n" + plan + SMALL_PATCH)
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--workers", "1"]) == 0
-    lines = [line for line in capsys.readouterr().err.splitlines() if " of the estimated steps" in line]
+    lines = [line for line in capsys.readouterr().err.splitlines() if " % of the time" in line]
     before = [line for line in lines if line.endswith(" of 0.0003 s, between two outputs")]
     reached = [float(line.partition("t = ")[2].split()[0]) for line in before]
+    assert all(line.startswith(f"{100 * t / 3e-4:.0f} % of the time, about ") for line, t in zip(before, reached))
     assert len(reached) > 2 and reached == sorted(reached) and reached[0] < 1e-4
     assert "f = " in lines[-1] and "t = 0.0003 of" in lines[-1]

@@ -71,6 +71,15 @@ def test_longer_points_lengthen_the_others():
     assert list(left.expected) == ["b", "c", "d"]
 
 
+def test_a_point_that_is_known_takes_no_time_and_says_nothing_of_the_others():
+    machine = Machine()
+    left = machine.left(dict.fromkeys("abc", 10.0))
+    left.omit("a")
+    assert left.seconds == pytest.approx(20.0)
+    machine.run(5.0)
+    assert left.seconds == pytest.approx(15.0)
+
+
 def test_several_processes_share_the_points():
     machine = Machine()
     left = machine.left(dict.fromkeys(range(8), 10.0), processes=4)

@@ -43,6 +43,9 @@ def test_the_part_of_the_steps_follows_the_reversals():
     parts = [run.part(time) for time in np.linspace(0.0, 0.01, 11)]
     assert np.all(np.diff(parts) >= 0) and parts[-1] == 1.0
     assert parts[8] - parts[2] > 0.6 * (1.0 - parts[0])
+    (to_reversal, after) = run.seconds_between([0.005, 0.01])
+    assert run.start_seconds + to_reversal + after == pytest.approx(run.seconds)
+    assert to_reversal / after == pytest.approx(parts[5] / (1 - parts[5])) and run.start_seconds > 0
 
 
 @pytest.mark.parametrize(
