@@ -176,7 +176,7 @@ class ExpectedCourse:
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
 # On the long cells of the quick model: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random
-# contacts of verification/campaigns/estimates. The way does not count where the sample says how much of its map passes.
+# contacts of verification/campaigns/estimates.
 COURSE_ON_LONG_CELLS = ExpectedCourse(rest=3.0, way=2.0, on_longer=0.0)
 
 
@@ -724,12 +724,10 @@ def moving_work(
     continuations: float = 0.0,
     course: ExpectedCourse = EXPECTED_COURSE,
     factor: float = 1.0,
-    passed: float | None = None,
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]. Of a step in time it is
-    `work_of_step_in_time` times the ``factor``. ``passed``: part of the map that passes, or the way of the first moments if that is
-    more; None: by the ``course``."""
+    `work_of_step_in_time` times the ``factor``."""
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
