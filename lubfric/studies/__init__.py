@@ -1,7 +1,7 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .._base.processes import MOST_WORKERS, cluster, pool, processors
-from .best import BestDesign, best, best_mean
+from .best import COMPARED_DISTANCE, CORRELATION_OF_DESIGNS, BestDesign, best, best_mean
 from .choose import AUTO_SPEEDS, each_once, expected_speeds, span
 from .codec import classes_of, decode, encode, fits
 from .conditions import design_keys, operating_keys

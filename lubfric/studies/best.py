@@ -3,6 +3,7 @@ combinations that it cannot be distinguished from within the intervals of the po
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +20,33 @@ from .tables import columns_of_study
 
 # Parts of the uncertainty budget of f by ranges of inputs, which designs have in common where the inputs are not varied.
 SHARED_PARTS = ("not_given", "inputs")
+
+# Models whose model-form errors of similar designs were compared.
+COMPARED_MODELS = ("quick", "paper")
+
+# Keys by which these designs differed.
+COMPARED_KEYS = frozenset(
+    {
+        "surface.sq",
+        "surface.ra",
+        "surface.correlation_length",
+        "counterface.sq",
+        "counterface.ra",
+        "counterface.correlation_length",
+        "bodies.radius",
+        "bodies.boundary_friction_coefficient",
+        "lubricant.viscosity",
+    }
+)
+
+# Correlation of the model-form errors of two designs that differ by `COMPARED_DISTANCE` at most [-]. Measured on pairs of random
+# contacts at rest and rolling (`python -m verification.campaigns.calibration pairs`): with it 96 % of the differences at rest, and
+# all of those rolling, are within their 95 % error.
+CORRELATION_OF_DESIGNS = 0.75
+
+# Distance of two designs, the sum of the changes of ln of their keys, up to which that holds [-]: a factor of 2, the largest that
+# was compared. What is left of 1 - `CORRELATION_OF_DESIGNS` grows with the distance beyond it: a choice, as nothing was measured there.
+COMPARED_DISTANCE = math.log(2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,8 +91,9 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
 
     Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point lies; all
     else that is varied is design. Two points cannot be distinguished where the difference of their numbers is within the error of this
-    difference. Their numerical, sampling and model-form errors are taken as independent, and count by the sides of the intervals that
-    face each other. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two changes
+    difference. Errors count by the sides of the intervals that face each other. Numerical and sampling errors are taken as independent.
+    Model-form errors of similar designs by the quick model or that of the paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken
+    as independent. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two changes
     counts. A point without a known interval cannot be distinguished from any other.
 
     Parameters
@@ -151,15 +180,21 @@ class _Points:
     value : magnitude of the number, (n,)
     ends : of its 95 % interval, (2, n); NaN where it is not known
     own : sides of the interval, below and above, by the errors that a point has for itself, (2, n)
+    by_model : sides by the model-form error, (2, n)
     by_inputs : sides by the ranges of inputs, (2, n)
     inputs : number of the set of inputs with a range, (n,): points with the same share the values of these inputs
+    place : ln of the `COMPARED_KEYS` of the design that are varied, (k, n)
+    kind : number of the combination of its other keys, (n,); -1 where model-form errors were not compared
     """
 
     value: np.ndarray
     ends: np.ndarray
     own: np.ndarray
+    by_model: np.ndarray
     by_inputs: np.ndarray
     inputs: np.ndarray
+    place: np.ndarray
+    kind: np.ndarray
 
     def at(self, rows: np.ndarray) -> _Points:
         """Return the points in ``rows``."""
@@ -175,8 +210,17 @@ def _mean_points(points: _Points, designs: list[np.ndarray], weights: np.ndarray
 
     sets: dict[tuple[int, ...], int] = {}
     inputs = [sets.setdefault(tuple(points.inputs[rows].tolist()), len(sets)) for rows in designs]
-    numbers = {name: mean(values) for name, values in vars(points).items() if name != "inputs"}
-    return _Points(**numbers, inputs=np.array(inputs))
+    first = [rows[0] for rows in designs]
+    return _Points(
+        value=mean(points.value),
+        ends=mean(points.ends),
+        own=mean(points.own),
+        by_model=mean(points.by_model),
+        by_inputs=mean(points.by_inputs),
+        inputs=np.array(inputs),
+        place=points.place[:, first],
+        kind=points.kind[first],
+    )
 
 
 def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Points]:
@@ -190,17 +234,21 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
     parts = {name: columns[COLUMN_OF_ERROR[name]] for name in ("numerical", "sampling", "freedom", *SHARED_PARTS)}
     of_model = np.nan_to_num(columns[COLUMN_OF_ERROR["model"]])  # the interval does not contain one that is not known
     of_sample = [half_width_of_error(*pair) for pair in zip(parts["sampling"].tolist(), parts["freedom"].tolist())]
-    own_of_f = f * np.sqrt(parts["numerical"] ** 2 + np.square(of_sample) + of_model**2)
+    own_of_f = f * np.hypot(parts["numerical"], of_sample)
     by_inputs_of_f = f * np.hypot(*(np.nan_to_num(parts[name]) for name in SHARED_PARTS))
     sides_of_f = np.abs(ends_of_f - f)
     of_interval = np.where(sides_of_f > 0, sides_of_f, np.inf)
     sides = np.abs(ends - value)
+    (place, kind) = _places_of_designs(result, columns)
     return columns, _Points(
         value=value,
         ends=ends,
         own=sides * np.minimum(own_of_f / of_interval, 1.0),
+        by_model=sides * np.minimum(f * of_model / of_interval, 1.0),
         by_inputs=sides * np.minimum(by_inputs_of_f / of_interval, 1.0),
         inputs=_sets_of_inputs(result, columns),
+        place=place,
+        kind=kind,
     )
 
 
@@ -229,6 +277,28 @@ def _sets_of_inputs(result: Any, columns: dict[str, np.ndarray]) -> np.ndarray:
     return np.array(numbers, dtype=int)
 
 
+def _places_of_designs(result: Any, columns: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Return where the design of each point lies, as `_Points.place` and `_Points.kind`."""
+    keys = design_keys(result.plan)
+    numbers = [
+        key for key in keys if key in COMPARED_KEYS and columns[key].dtype.kind == "f" and (columns[key] > 0).all()
+    ]
+    count = len(next(iter(columns.values())))
+    place = np.array([np.log(columns[key]) for key in numbers]).reshape(len(numbers), count)
+    kind = _groups(columns, tuple(key for key in keys if key not in numbers))
+    is_compared = result.plan.scene.numerics.model in COMPARED_MODELS
+    return place, kind if is_compared else np.full(count, -1)
+
+
+def _correlation(points: _Points, row: int) -> np.ndarray:
+    """Return the correlation of the model-form error of each of ``points`` with that in ``row``, (n,)."""
+    distance = np.abs(points.place - points.place[:, [row]]).sum(axis=0)
+    multiple = np.maximum(distance / COMPARED_DISTANCE, 1.0)
+    correlation = np.maximum(1.0 - multiple * (1.0 - CORRELATION_OF_DESIGNS), 0.0)
+    is_alike = (points.kind == points.kind[row]) & (points.kind >= 0)
+    return np.where(is_alike, correlation, 0.0)
+
+
 def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray:
     """Return the number of the combination of the values of ``keys`` of each point, in the order in which they occur, (n,)."""
     count = len(next(iter(columns.values())))
@@ -246,7 +316,10 @@ def _ranked(points: _Points) -> tuple[int, np.ndarray]:
     apart = np.hypot(points.by_inputs[1, lowest], points.by_inputs[0])
     by_inputs = np.where(points.inputs == points.inputs[lowest], shared, apart)
     own = np.hypot(points.own[1, lowest], points.own[0])
-    are_distinct = value - value[lowest] > np.hypot(own, by_inputs)
+    above = points.by_model[1, lowest]
+    below = points.by_model[0]
+    by_model = np.sqrt(above**2 + below**2 - 2.0 * _correlation(points, lowest) * above * below)
+    are_distinct = value - value[lowest] > np.sqrt(own**2 + by_model**2 + by_inputs**2)
     return lowest, np.array([row for row in order[1:] if not are_distinct[row]], dtype=int)
 
 

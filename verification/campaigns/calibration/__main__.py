@@ -1,6 +1,6 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
 ``... numbers [--workers N] [--seconds S] [--out FOLDER]``: solve the cases that are missing on long cells by today's model.
-``... fit``: write calibration.toml of lubfric anew."""
+``... fit``: write calibration.toml of lubfric anew. ``... pairs COUNT``: extend the table of pairs of similar contacts."""
 
 import math
 import time
@@ -10,14 +10,14 @@ from pathlib import Path
 from .. import extending
 
 # isort: split
-from . import fit
+from . import fit, pairs
 from .table import TABLES, extend, to_repeat
 
 
 def main() -> None:
     """Run the command."""
     p = extending.parser("verification.campaigns.calibration", __doc__)
-    p.add_argument("motion", choices=("rest", "rolling", "numbers", "fit"))
+    p.add_argument("motion", choices=("rest", "rolling", "numbers", "fit", "pairs"))
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--repeat", type=int, default=0, help="solve the known cases on the map of this repeat (1, 2, ...)")
     p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
@@ -33,6 +33,14 @@ def main() -> None:
         for motion in reversed(fit.MOTIONS):  # those that take longer first
             file = fit.numbers_file(motion, options.out)
             fit.solve_numbers(file, motion, workers=options.workers, seconds=ends - time.monotonic())
+        return
+    if options.motion == "pairs":
+        for motion in fit.MOTIONS:
+            for row in pairs.extend(motion, options.count, options.budget):
+                end = row["failure"] or f"{row['quick_error']:.3f} {row['quick_other_error']:.3f}"
+                print(
+                    f"{motion} {row['number']} {row['key']} {row['factor']} {row['seconds']:.1f} s: {end}", flush=True
+                )
         return
     seeds: Sequence[int] = range(options.first, options.count)
     if options.repeat:
