@@ -124,7 +124,7 @@ def _no_scheduler(address: str, why: str) -> InputError:
     return InputError(message, "--cluster", recommendation=recommendation)
 
 
-def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time: int = IN_FLIGHT) -> Iterator[Any]:
+def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]]) -> Iterator[Any]:
     """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
     has ended.
 

@@ -128,7 +128,7 @@ def read_columns(
     """
     rows = _rows(path, names)
     headings = [text.strip() for text in rows[0][1]]
-    stated = _line_of_units(path, headings, rows)
+    stated = _line_of_units(headings, rows)
     if stated is not None:
         rows = [rows[0], *rows[2:]]
     if len(rows) < 2:
@@ -168,7 +168,7 @@ def read_columns(
     return columns
 
 
-def _line_of_units(path: Path, headings: list[str], rows: list[tuple[int, list[str]]]) -> list[str | None] | None:
+def _line_of_units(headings: list[str], rows: list[tuple[int, list[str]]]) -> list[str | None] | None:
     """Return the units in the line below the headings, None for a column without one; None where that line holds
     numbers."""
     if len(rows) < 2:
@@ -211,7 +211,7 @@ def table_headings(path: Path, names: Sequence[str]) -> list[str]:
     each with the unit that a line below it may give."""
     rows = _rows(path, names)
     headings = [text.strip() for text in rows[0][1]]
-    units = _line_of_units(path, headings, rows) or [None] * len(headings)
+    units = _line_of_units(headings, rows) or [None] * len(headings)
     return [
         heading if unit is None or name_and_unit(heading)[1] is not None else f"{heading} [{unit}]"
         for heading, unit in zip(headings, units)

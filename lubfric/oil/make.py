@@ -10,8 +10,6 @@ from .oil import Oil
 from .pressure import MeasuredCoefficients
 from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
-# Temperatures of the standard viscosities [K].
-
 # Temperatures of the viscosities of ISO 3448 and ASTM D2270 [K].
 AT_40 = 40 + CELSIUS
 AT_100 = 100 + CELSIUS

@@ -21,7 +21,7 @@ from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
@@ -51,9 +51,6 @@ from .pictures import plot_surface
 from .progress import clear_active, state_part
 from .report import report_page
 from .run_files import BIBTEX_FILE, OUTPUTS, RESOLVED_SCENE, RESULT
-
-if TYPE_CHECKING:
-    pass
 
 
 # Exit codes, the second argument of a KeyboardInterrupt: by definition of shells 128 and the number of the signal.

@@ -142,9 +142,6 @@ def solve_point(
     if worst <= tolerance:
         status = CONVERGED
     ways = ", ".join(f"{way} ({ended.residual:.1e})" for way, ended in tried)
-    status = ITERATION_LIMIT if worst < math.inf else DIVERGED
-    if worst <= tolerance:
-        status = CONVERGED
     spent = f"{work.factorisations} of {most} factorisations"
     report = Report(
         "deterministic mixed film",
