@@ -119,7 +119,7 @@ for scene, ax in zip(contacts, axes.flat, strict=True):
     ax.tick_params(axis="y", labelsize=8)
     print(
         f"{scene.name}: {point.coefficient:.4f}",
-        *(f"{w}: f {100 * c:+.0f} %" for w, c, _ in point.unmodelled_effects if c == c),
+        *(f"{e.what}: f {100 * e.change:+.0f} %" for e in point.unmodelled_effects if e.change == e.change),
         sep="\n    ",
     )
 

@@ -52,7 +52,6 @@ from .progress import clear_active, state_part
 from .report import report_page
 from .run_files import BIBTEX_FILE, OUTPUTS, RESOLVED_SCENE, RESULT
 
-
 # Exit codes, the second argument of a KeyboardInterrupt: by definition of shells 128 and the number of the signal.
 INTERRUPTED = 130
 TERMINATED = 143

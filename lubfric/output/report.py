@@ -183,7 +183,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(scene, curve),
         "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1])
-        + _effects_at_other_points(curve, {what for what, *_ in effects}),
+        + _effects_at_other_points(curve, {effect.what for effect in effects}),
         "details": _details(curve) + _law(law, curve),
         "sources": bullets(curve.cite().splitlines()),
     }
@@ -197,11 +197,11 @@ def _effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
         if point is None:
             continue
         for effect in point.unmodelled_effects:
-            if effect[0] in listed:
+            if effect.what in listed:
                 continue
-            change = float(np.nan_to_num(abs(effect[1]) * abs(point.coefficient)))
-            if effect[0] not in largest or change > largest[effect[0]][0]:
-                largest[effect[0]] = (change, effect, _place(curve, index))
+            change = float(np.nan_to_num(effect.largest_change * abs(point.coefficient)))
+            if effect.what not in largest or change > largest[effect.what][0]:
+                largest[effect.what] = (change, effect, _place(curve, index))
     shown = sorted(largest.values(), key=lambda row: -row[0])
     place = "at other points of the curve, each at that at which it changes f the most"
     moments = [where.removeprefix("at ") for *_, where in shown]
@@ -877,10 +877,10 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
         return f"<p>Each known effect changes f {escape(where)} by less than numerics.tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
-        f"<td>{escape(sentence(what))}</td>"
-        f'<td class="number">{change_in_words(*changes)}</td>'
-        f"{moment}<td>{escape(sentence(advice))}</td>"
-        for (what, *changes, advice), moment in zip(effects, cells)
+        f"<td>{escape(sentence(effect.what))}</td>"
+        f'<td class="number">{change_in_words(*effect.changes)}</td>'
+        f"{moment}<td>{escape(sentence(effect.recommendation))}</td>"
+        for effect, moment in zip(effects, cells)
     ]
     head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
     heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]

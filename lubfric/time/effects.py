@@ -63,7 +63,7 @@ class EffectOverTime:
     def moment_in_words(self) -> str:
         """The moment as text."""
         text = f"t = {worded(self.time, 's')}"
-        if math.isnan(_largest_change(self.effect)):
+        if math.isnan(self.effect.largest_change):
             return f"{text} (highest pressure)"
         return f"{text} (not estimated at {self.unknown} other moments)" if self.unknown else text
 
@@ -121,12 +121,12 @@ def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTim
     by_name: dict[str, list[tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]]] = {}
     for moment in moments:
         for effect in moment.effects:
-            by_name.setdefault(effect[0], []).append((moment, effect))
+            by_name.setdefault(effect.what, []).append((moment, effect))
     chosen: list[tuple[float, EffectOverTime]] = []
     for pairs in by_name.values():
-        known = [pair for pair in pairs if math.isfinite(_largest_change(pair[1]))]
+        known = [pair for pair in pairs if math.isfinite(pair[1].largest_change)]
         moment, effect = max(known, key=_rank) if known else max(pairs, key=lambda pair: pair[0].peak_pressure)
-        change = _largest_change(effect) * moment.friction if known else 0.0
+        change = effect.largest_change * moment.friction if known else 0.0
         unknown = len(pairs) - len(known)
         chosen.append((change, EffectOverTime(effect=effect, time=moment.time, unknown=unknown)))
     return tuple(each for _, each in sorted(chosen, key=lambda pair: -pair[0]))
@@ -136,14 +136,8 @@ def _rank(pair: tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]) -> tu
     """Return by what a moment of an effect is compared with others: whether its relative change says something, and the
     change of f."""
     moment, effect = pair
-    relative = _largest_change(effect)
+    relative = effect.largest_change
     return not is_near_zero(moment.friction, relative), relative * moment.friction
-
-
-def _largest_change(effect: UnmodelledEffect | ExpectedEffect) -> float:
-    """Return the largest relative change of f by an effect, without its sign; NaN: not estimated."""
-    _, *changes, _ = effect
-    return max(abs(float(change)) for change in changes)
 
 
 def _peak_pressure(scene: Scene) -> float:

@@ -25,11 +25,9 @@ def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_
     assert own.unmodelled_effects == () and "changes f at U = 0.0001 m/s by less than numerics.tolerance" in section
     largest = {}
     for point in others:
-        for what, change, advice in point.unmodelled_effects:
-            sizes = abs(change) * point.coefficient
-            largest[what] = max(
-                largest.get(what, (0.0,)), (sizes, point.speed, effect_in_words((what, change, advice)))
-            )
+        for effect in point.unmodelled_effects:
+            row = (abs(effect.change) * point.coefficient, point.speed, effect_in_words(effect))
+            largest[effect.what] = max(largest.get(effect.what, (0.0,)), row)
     assert largest
     rows = [re.sub(r"<[^>]+>", "|", row) for row in re.findall(r"<tr>(.*?)</tr>", section)[1:]]
     assert len(rows) == len(largest)

@@ -272,7 +272,6 @@ def test_an_estimated_pressure_viscosity_coefficient_stands_beside_the_answer(tm
         "the pressure-viscosity coefficient is estimated, and its range is not in the interval" in answer
     ) == is_estimate
     if is_estimate:
-        changes = [
-            change for what, change, _ in lubfric.friction(scene, 0.5).unmodelled_effects if "measured oils" in what
-        ]
+        effects = lubfric.friction(scene, 0.5).unmodelled_effects
+        changes = [effect.change for effect in effects if "measured oils" in effect.what]
         assert f"{100 * max(changes):+.2g} %" in answer

@@ -8,6 +8,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.models.shared import (
+    UnmodelledEffect,
     alpha_of_points_in_words,
     change_in_words,
     effect_in_words,
@@ -32,7 +33,9 @@ SQ = ROLLER.surface.sq
 
 
 def test_a_large_change_is_reported_without_powers_of_ten():
-    words = [effect_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
+    changes = (1.4, -0.126, 0.013, math.nan)
+    effects = [UnmodelledEffect(what="starved", change=change, recommendation="oil") for change in changes]
+    words = list(map(effect_in_words, effects))
     assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
 
@@ -47,21 +50,24 @@ def test_a_large_change_is_reported_without_powers_of_ten():
 def test_both_ends_of_an_estimated_pressure_viscosity_coefficient_are_stated(low, high, words):
     """The words are of the effects themselves, which are sorted by size; an end below the tolerance is none of them."""
     effects = unmodelled_effects(ROLLER, SQ, 1.0)
-    changes = {"the lowest of": low, "the highest of": high}
-    ends = [(what, next((c for end, c in changes.items() if end in what), c), advice) for what, c, advice in effects]
+    changes = {"lowest": low, "highest": high}
+    ends = [
+        dataclasses.replace(effect, change=changes.get(effect.end_of_alpha, effect.change), what="in other words")
+        for effect in effects
+    ]
     assert words in alpha_of_points_in_words({1: ends}, 1)
-    without = [effect for effect in ends if "the lowest of" not in effect[0]]
+    without = [effect for effect in ends if effect.end_of_alpha != "lowest"]
     assert (
         f"changes f by less than numerics.tolerance, the highest by {100 * high:+.2g} %;"
         in alpha_of_points_in_words({1: without}, 1)
     )
-    neither = [effect for effect in without if "the highest of" not in effect[0]]
+    neither = [effect for effect in without if effect.end_of_alpha != "highest"]
     assert alpha_of_points_in_words({1: neither}, 1) == ""
 
 
 def told(lacks, word):
-    (change,) = [change for what, change, _ in lacks if word in what]
-    return change
+    (effect,) = [effect for effect in lacks if word in effect.what]
+    return effect.change
 
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])
@@ -89,28 +95,29 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
     assert told(result.unmodelled_effects, "f_b") == pytest.approx(
         -0.25 * result.boundary_force / 2000.0 / result.coefficient
     )
-    sizes = [abs(change) for _, change, _ in result.unmodelled_effects if not math.isnan(change)]
+    sizes = [abs(effect.change) for effect in result.unmodelled_effects if not math.isnan(effect.change)]
     assert sizes == sorted(sizes, reverse=True) and math.isnan(told(result.unmodelled_effects, "motion"))
 
 
 def test_what_is_given_and_what_is_below_the_tolerance_is_not_reported():
     given = ROLLER.with_(lubricant={"inlet_length": 1.0}, bodies={"boundary_friction_coefficient": [0.1, 0.12]})
-    words = " ".join(what for what, *_ in unmodelled_effects(given, SQ, 1.0))
+    words = " ".join(effect.what for effect in unmodelled_effects(given, SQ, 1.0))
     assert "starved" not in words and "f_b" not in words and "running-in" in words
-    smooth = " ".join(what for what, *_ in unmodelled_effects(ROLLER, 0.0, 1.0))
+    smooth = " ".join(effect.what for effect in unmodelled_effects(ROLLER, 0.0, 1.0))
     assert "running-in" not in smooth and "motion" not in smooth
     loose = dataclasses.replace(ROLLER, numerics=dataclasses.replace(ROLLER.numerics, tolerance=0.2))
-    assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in unmodelled_effects(loose, SQ, 0.3))
+    assert all(effect.change**2 > 0.04 or math.isnan(effect.change) for effect in unmodelled_effects(loose, SQ, 0.3))
     given = loose.with_(lubricant={"pressure_viscosity_coefficient": 18e-9})
-    assert [what for what, *_ in unmodelled_effects(given, 0.0, 1.0)] == []
-    assert "f_b" in unmodelled_effects(paper_scene(), 1e-7, 0.0)[0][0]
+    assert [effect.what for effect in unmodelled_effects(given, 0.0, 1.0)] == []
+    assert "f_b" in unmodelled_effects(paper_scene(), 1e-7, 0.0)[0].what
 
 
 def test_info_shows_the_range_of_each_effect():
     effects = expected_effects(ROLLER, SQ, 1.0)
     text = describe_scene(ROLLER)
-    for what, low, high, advice in effects:
-        assert f"{what}: f {change_in_words(low, high)}; {advice}" in text and not low > high
+    for effect in effects:
+        changes = change_in_words(effect.low, effect.high)
+        assert f"{effect.what}: f {changes}; {effect.recommendation}" in text and not effect.low > effect.high
     assert "effects not modelled" in text and len(effects) >= 5
 
 
@@ -120,15 +127,15 @@ def test_no_report_contradicts_info(model, speed):
     """The changes of f that a result states are in the ranges that were stated before it, whatever the model."""
     scene = paper_scene(numerics={"model": model, "sampling": "patch", "max_work": 200.0})
     result = lubfric.friction(scene, speed)
-    ranges = {what: (low, high) for what, low, high, _ in expected_effects(scene, scene.surface.sq, speed)}
-    for what, change, _ in result.unmodelled_effects:
-        low, high = ranges[what]
-        assert math.isnan(change) or low - 0.02 <= change <= high + 0.02, what
+    ranges = {each.what: (each.low, each.high) for each in expected_effects(scene, scene.surface.sq, speed)}
+    for effect in result.unmodelled_effects:
+        low, high = ranges[effect.what]
+        assert math.isnan(effect.change) or low - 0.02 <= effect.change <= high + 0.02, effect.what
 
 
 def test_a_soft_body_is_answered_with_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
-    (cover,) = [advice for what, _, advice in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
+    (cover,) = [each.recommendation for each in unmodelled_effects(soft, SQ, 1.0) if "cover" in each.what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
 
 
@@ -136,7 +143,7 @@ def test_a_given_pressure_viscosity_coefficient_is_exact():
     oil = ROLLER.lubricant
     given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient})
     (estimated, exact) = (
-        " ".join(what for what, *_ in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
+        " ".join(effect.what for effect in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
     )
     assert "in place of the estimate" in estimated and "in place of the estimate" not in exact
 

@@ -236,10 +236,10 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
     for number, scene in enumerate(plan.scenes, 1):
         point = lubfric.friction(scene, 2.0)
         assert "lowest of measured oils" in point.not_in_interval
-        for what, change, _ in point.unmodelled_effects:
+        for effect in point.unmodelled_effects:
             for end in ("lowest", "highest"):
-                if f"the {end} of measured" in what:
-                    changes[end, number] = change
+                if f"the {end} of measured" in effect.what:
+                    changes[end, number] = effect.change
     (line,) = (line for line in study_report.answer_lines(lubfric.study(plan)) if "measured oils" in line)
     assert "At all points, by closed forms" in line and line.endswith("give lubricant.pressure_viscosity_coefficient.")
     stated = re.search(r"lowest value .* by up to (\S+) % \(at point (\d)\), the highest by up to (\S+) % \(at", line)

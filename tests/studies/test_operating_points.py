@@ -309,7 +309,7 @@ def test_the_answer_of_a_study_names_an_estimated_pressure_viscosity_coefficient
     assert ("The pressure-viscosity coefficient is an estimate" in text) == is_estimate
     if is_estimate:
         effects = lubfric.friction(scene, 0.5).unmodelled_effects
-        by_alpha = [change for what, change, _ in effects if "measured oils" in what]
+        by_alpha = [effect.change for effect in effects if "measured oils" in effect.what]
         assert by_alpha and all(f"by {100 * change:+.2g} %" in text for change in by_alpha)
 
 

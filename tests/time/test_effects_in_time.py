@@ -6,7 +6,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.shared import unmodelled_effects
+from lubfric.models.shared import UnmodelledEffect, unmodelled_effects
 from lubfric.output import describe_scene
 from lubfric.scene import Table, Transient
 from lubfric.time import EffectsOfMoment, effects_of_run, largest_over_time, rolls, scene_at
@@ -20,36 +20,40 @@ RUN = paper_scene(
 ).with_(transient=Transient(duration=2e-3, outputs=8, load=LOAD, speed=SPEED))
 
 
+def effect(what, change):
+    return UnmodelledEffect(what=what, change=change, recommendation="what to do")
+
+
 def moment(time, friction, *effects, pressure=1e8):
     return EffectsOfMoment(time=time, peak_pressure=pressure, friction=friction, effects=effects)
 
 
 def test_an_effect_is_stated_where_it_changes_f_the_most_and_not_where_f_is_near_zero():
     moments = [
-        moment(1.0, 0.1, ("additive", -0.2, "a")),
-        moment(2.0, 0.02, ("additive", -0.9, "a"), ("inlet", 0.5, "b")),
-        moment(3.0, 1e-3, ("additive", -60.0, "a")),
+        moment(1.0, 0.1, effect("additive", -0.2)),
+        moment(2.0, 0.02, effect("additive", -0.9), effect("inlet", 0.5)),
+        moment(3.0, 1e-3, effect("additive", -60.0)),
     ]
     effects = largest_over_time(moments)
-    assert [(each.effect[0], each.effect[1], each.time) for each in effects] == [
+    assert [(each.effect.what, each.effect.change, each.time) for each in effects] == [
         ("additive", -0.2, 1.0),
         ("inlet", 0.5, 2.0),
     ]
 
 
 def test_an_effect_that_is_not_estimated_is_that_of_the_highest_pressure():
-    unknown = ("cover", math.nan, "a")
+    unknown = effect("cover", math.nan)
     moments = [moment(1.0, 0.1, unknown), moment(2.0, 0.1, unknown, pressure=2e8), moment(3.0, 0.1, unknown)]
-    (effect,) = largest_over_time(moments)
-    assert (effect.time, effect.moment_in_words) == (2.0, "t = 2 s (highest pressure)")
-    (known,) = largest_over_time([*moments, moment(4.0, 0.1, ("cover", 0.3, "a"))])
+    (stated,) = largest_over_time(moments)
+    assert (stated.time, stated.moment_in_words) == (2.0, "t = 2 s (highest pressure)")
+    (known,) = largest_over_time([*moments, moment(4.0, 0.1, effect("cover", 0.3))])
     assert (known.time, known.moment_in_words) == (4.0, "t = 4 s (not estimated at 3 other moments)")
 
 
 def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():
     prepared = lubfric.prepare(RUN)
     run = lubfric.transient(prepared)
-    stated = {each.effect[0]: each for each in effects_of_run(prepared, run)}
+    stated = {each.effect.what: each for each in effects_of_run(prepared, run)}
     largest: dict[str, float] = {}
     for i in rolls(run.columns).nonzero()[0]:
         f = abs(run.coefficient[i])
@@ -60,13 +64,13 @@ def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():
             (abs(run.boundary_force[i] / run.load[i]), f),
             run=RUN,
         )
-        for what, change, _ in effects:
-            largest[what] = max(largest.get(what, 0.0), abs(change) * f)
+        for each in effects:
+            largest[each.what] = max(largest.get(each.what, 0.0), abs(each.change) * f)
     assert stated.keys() == largest.keys()
-    known = {what: each for what, each in stated.items() if math.isfinite(each.effect[1])}  # NaN is not estimated
+    known = {what: each for what, each in stated.items() if math.isfinite(each.effect.change)}  # NaN is not estimated
     for what, each in known.items():
         f = abs(run.coefficient[run.time == each.time][0])
-        assert abs(each.effect[1]) * f == pytest.approx(largest[what]), what
+        assert abs(each.effect.change) * f == pytest.approx(largest[what]), what
     assert len({each.time for each in known.values()}) > 1
 
 

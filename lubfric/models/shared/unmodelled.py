@@ -11,6 +11,8 @@ change of f: it holds that of the result by any model.
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -76,8 +78,63 @@ POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
 # Times the guess of mu between which that of a result may lie. A choice: a factor of 2.
 SHEARS = (0.5, 1.0, 2.0)
 
-UnmodelledEffect = tuple[str, float, str]  # the effect; likely change of f, relative (NaN: not known); what to do
-ExpectedEffect = tuple[str, float, float, str]  # the effect; lowest and highest change of f; what to do
+
+@dataclass(frozen=True, kw_only=True)
+class UnmodelledEffect:
+    """An effect that is not modelled.
+
+    Attributes
+    ----------
+    what : the effect, as text
+    change : likely change of f, relative [-]; NaN where it is not known
+    recommendation : what to do
+    end_of_alpha : which one of `ENDS_OF_ALPHA` it is; "" of another effect
+    """
+
+    what: str
+    change: float
+    recommendation: str
+    end_of_alpha: str = ""
+
+    @property
+    def changes(self) -> tuple[float]:
+        """The change of f."""
+        return (self.change,)
+
+    @property
+    def largest_change(self) -> float:
+        """The change of f without its sign; NaN where it is not known."""
+        return abs(float(self.change))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExpectedEffect:
+    """An effect that is not modelled, before there is a result.
+
+    Attributes
+    ----------
+    what, recommendation, end_of_alpha : as of `UnmodelledEffect`
+    low, high : lowest and highest change of f, relative [-]; NaN where they are not known
+    """
+
+    what: str
+    low: float
+    high: float
+    recommendation: str
+    end_of_alpha: str = ""
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """The lowest and the highest change of f."""
+        return self.low, self.high
+
+    @property
+    def largest_change(self) -> float:
+        """The largest change of f without its sign; NaN where it is not known."""
+        return max(abs(float(change)) for change in self.changes)
+
+
+AnyEffect = TypeVar("AnyEffect", UnmodelledEffect, ExpectedEffect)
 
 
 def unmodelled_effects(
@@ -99,8 +156,12 @@ def unmodelled_effects(
     """
     tolerance = scene.numerics.tolerance
     effects = _all_effects(scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion)
-    kept = [effect for effect in effects if not abs(effect[1]) <= tolerance]
-    return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
+    return _largest_first([effect for effect in effects if not effect.largest_change <= tolerance])
+
+
+def _largest_first(effects: list[AnyEffect]) -> tuple[AnyEffect, ...]:
+    """Return ``effects`` with the largest change of f first; what is not known is last."""
+    return tuple(sorted(effects, key=lambda each: -each.largest_change if math.isfinite(each.changes[0]) else 0.0))
 
 
 def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
@@ -135,8 +196,8 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
     """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is none."""
     texts = []
     for end in ENDS_OF_ALPHA:
-        of_end = [effect for effect in effects if effect[3] == GIVE_ALPHA and f"the {end} of" in effect[0]]
-        ends = [change for _, low, high, _ in of_end for change in (low, high) if math.isfinite(change)]
+        of_end = [effect for effect in effects if effect.end_of_alpha == end]
+        ends = [change for effect in of_end for change in effect.changes if math.isfinite(change)]
         texts.append(change_in_words(min(ends), max(ends)) if ends else "less than numerics.tolerance")
     if len({*texts}) == 1 and texts[0].startswith("less"):
         return ""
@@ -162,10 +223,7 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
 def _changes_by_alpha(effects: Sequence[UnmodelledEffect]) -> dict[str, float]:
     """Return the changes of f at those of `ENDS_OF_ALPHA` that are among the ``effects``."""
     return {
-        end: change
-        for end in ENDS_OF_ALPHA
-        for what, change, advice in effects
-        if advice == GIVE_ALPHA and f"the {end} of" in what and math.isfinite(change)
+        effect.end_of_alpha: effect.change for effect in effects if effect.end_of_alpha and math.isfinite(effect.change)
     }
 
 
@@ -184,7 +242,7 @@ def expected_effects(
     of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
     share = of_boundary / of_rubbing if of_rubbing else 0.0
     shear = (f - of_boundary) / max(1.0 - share, LEAST_SCALED_SHARE)
-    ranges: dict[str, tuple[float, float, str]] = {}
+    ranges: dict[str, ExpectedEffect] = {}
     for power in POWERS if of_rubbing and speed else (1.0,):
         of_load = share**power
         for more in SHEARS if of_rubbing and speed else (1.0,):
@@ -192,13 +250,24 @@ def expected_effects(
             effects = _all_effects(
                 scene, sq, speed, friction_parts if friction_parts[1] > 0 else None, includes_motion=includes_motion
             )
-            for what, change, advice in effects:
-                low, high, _ = ranges.get(what, (change, change, advice))
-                ranges[what] = float(np.fmin(low, change)), float(np.fmax(high, change)), advice
+            for effect in effects:
+                known = ranges.get(effect.what, _at_one_result(effect))
+                low = float(np.fmin(known.low, effect.change))
+                high = float(np.fmax(known.high, effect.change))
+                ranges[effect.what] = replace(known, low=low, high=high, recommendation=effect.recommendation)
     tolerance = scene.numerics.tolerance
-    rows = [(what, low, high, advice) for what, (low, high, advice) in ranges.items()]
-    kept = [row for row in rows if not max(abs(row[1]), abs(row[2])) <= tolerance]
-    return tuple(sorted(kept, key=lambda row: -max(abs(row[1]), abs(row[2])) if math.isfinite(row[1]) else 0.0))
+    return _largest_first([effect for effect in ranges.values() if not effect.largest_change <= tolerance])
+
+
+def _at_one_result(effect: UnmodelledEffect) -> ExpectedEffect:
+    """Return the ``effect`` with the range that is its one change of f."""
+    return ExpectedEffect(
+        what=effect.what,
+        low=effect.change,
+        high=effect.change,
+        recommendation=effect.recommendation,
+        end_of_alpha=effect.end_of_alpha,
+    )
 
 
 def _all_effects(
@@ -222,17 +291,21 @@ def _all_effects(
         or with_ranges.bodies.boundary_friction_table is not None
     )
     if f > 0 and not is_stated:
-        what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
         effects.append(
-            (what, (RUBBED - 1) * of_boundary / f, "give bodies.boundary_friction_coefficient = [low, high]")
+            UnmodelledEffect(
+                what=f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})",
+                change=(RUBBED - 1) * of_boundary / f,
+                recommendation="give bodies.boundary_friction_coefficient = [low, high]",
+            )
         )
-    ends = 2 * bodies.half_width / bodies.width
     effects.append(
-        (
-            "the edges of the line contact (edge pressure, misalignment)",
-            ends,
-            "the number is the part of the line within half a contact width of its ends; use a three-dimensional contact model if "
-            "the edges matter",
+        UnmodelledEffect(
+            what="the edges of the line contact (edge pressure, misalignment)",
+            change=2 * bodies.half_width / bodies.width,
+            recommendation=(
+                "the number is the part of the line within half a contact width of its ends; use a three-dimensional "
+                "contact model if the edges matter"
+            ),
         )
     )
     return effects
@@ -260,57 +333,76 @@ def _of_film(
 
     effects: list[UnmodelledEffect] = []
     if lubricant.floods:
-        words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if it does not, give lubricant.inlet_length"
-        size = (
-            math.nan if is_narrow and is_of_film else change(scene, sq, STARVED_EXAMPLE)
-        )  # the rolling part may fall by more
-        effects.append((f"a starved inlet (film x {STARVED_EXAMPLE:g})", size, words))
-    for end, other in _at_ends_of_alpha(scene).items():
-        words = f"a pressure-viscosity coefficient of {end} of measured oils, in place of the estimate"
+        is_unknown = is_narrow and is_of_film  # the rolling part may fall by more
         effects.append(
-            (
-                words,
-                change(other, sq),
-                GIVE_ALPHA,
+            UnmodelledEffect(
+                what=f"a starved inlet (film x {STARVED_EXAMPLE:g})",
+                change=math.nan if is_unknown else change(scene, sq, STARVED_EXAMPLE),
+                recommendation=(
+                    f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if it does "
+                    "not, give lubricant.inlet_length"
+                ),
             )
         )
-    words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
-    effects.append((words, change(warm, sq), "give lubricant.temperature at the inlet of the contact"))
-    if sq > 0:
-        words = f"running-in of the surface (Sq x {WORN:g})"
+    for end, alpha in _ends_of_alpha(scene).items():
         effects.append(
-            (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
+            UnmodelledEffect(
+                what=(
+                    f"a pressure-viscosity coefficient of {1e9 * alpha:.3g} 1/GPa, the {end} of measured oils, in place "
+                    "of the estimate"
+                ),
+                change=change(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), sq),
+                recommendation=GIVE_ALPHA,
+                end_of_alpha=end,
+            )
+        )
+    effects.append(
+        UnmodelledEffect(
+            what=f"oil in the inlet {WARMER:g} K warmer than the given temperature",
+            change=change(warm, sq),
+            recommendation="give lubricant.temperature at the inlet of the contact",
+        )
+    )
+    if sq > 0:
+        effects.append(
+            UnmodelledEffect(
+                what=f"running-in of the surface (Sq x {WORN:g})",
+                change=change(scene, WORN * sq),
+                recommendation="give a height map measured after running-in, or use lubfric.run_in",
+            )
         )
         if has_moving_roughness(scene) and not includes_motion and line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq:
             effects.append(
-                (
-                    "motion of the roughness through the contact",
-                    math.nan,
-                    "set numerics.model = 'deterministic' to model it",
+                UnmodelledEffect(
+                    what="motion of the roughness through the contact",
+                    change=math.nan,
+                    recommendation="set numerics.model = 'deterministic' to model it",
                 )
             )
     if scene.bodies.e_prime < SOFT_E_PRIME:
-        words = (
-            f"the body is modelled as solid; if it is a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, give e_prime such "
-            "that the contact is as wide as measured"
+        effects.append(
+            UnmodelledEffect(
+                what="a thin soft cover, and its damping",
+                change=math.nan,
+                recommendation=(
+                    f"the body is modelled as solid; if it is a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, "
+                    "give e_prime such that the contact is as wide as measured"
+                ),
+            )
         )
-        effects.append(("a thin soft cover, and its damping", math.nan, words))
     return effects
 
 
-def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
-    """Return ``scene`` with the least and the largest pressure-viscosity coefficient of measured oils, by what that is
-    as text; {} where the coefficient is given."""
+def _ends_of_alpha(scene: Scene) -> dict[str, float]:
+    """Return the least and the largest pressure-viscosity coefficient [1/Pa] of measured oils, by `ENDS_OF_ALPHA`; {}
+    where the coefficient is given."""
     lubricant = scene.lubricant
     if lubricant.oil is None or lubricant.temperature is None:
         return {}
     alpha = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature)
     if alpha.low == alpha.high:
         return {}
-    return {
-        f"{1e9 * end:.3g} 1/GPa, the {word}": scene.with_(lubricant={"pressure_viscosity_coefficient": end})
-        for word, end in zip(ENDS_OF_ALPHA, (alpha.low, alpha.high))
-    }
+    return dict(zip(ENDS_OF_ALPHA, (alpha.low, alpha.high)))
 
 
 def _scaled(
@@ -361,8 +453,7 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
 
 def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
     """Return the effect in one line: what it is, the change of f to two digits, what to do."""
-    what, *changes, advice = effect
-    return f"{what}: f {change_in_words(*changes)}; {advice}"
+    return f"{effect.what}: f {change_in_words(*effect.changes)}; {effect.recommendation}"
 
 
 def change_in_words(low: float, high: float | None = None) -> str:
