@@ -245,7 +245,6 @@ def estimate_scene(
         may_refuse.add(Assumption.LONG_PATCH)
     refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption in may_refuse])
     scene_map = sample.whole_map
-    notes = [note for note in scene_map.notes if "nm as measured" in note or " µm used" in note]
     effects: tuple[ExpectedEffect, ...] = ()
     over_time: tuple[EffectOverTime, ...] = ()
     if scene.transient is not None:
@@ -263,7 +262,7 @@ def estimate_scene(
     ]
     sections = {
         "transient": changing,
-        "surface": [*sample.described(surface), *notes, slopes_in_words(scene_map)],
+        "surface": [*sample.described(surface), *scene_map.used_parts, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes if rows else ["each known effect changes f by less than numerics.tolerance"],

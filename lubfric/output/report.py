@@ -673,12 +673,14 @@ def _place(curve: CurveResult, index: int) -> str:
 
 def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a run in time fills."""
-    complete = result.status.startswith("Converged")
     return {
-        "kind": "" if complete else "failed",
+        "kind": "" if result.is_complete else "failed",
         "status": escape(result.status),
         "answer": paragraphs(
-            [*history_answer(prepared.scene, result, complete=complete), *_history_notes(prepared.scene, result)]
+            [
+                *history_answer(prepared.scene, result, complete=result.is_complete),
+                *_history_notes(prepared.scene, result),
+            ]
         ),
         "budget": _history_budget(result),
         "table": _history_table(result),

@@ -12,7 +12,7 @@ from .._base import validate
 from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import Bodies, ContactDomain, LongestContact, Roughness, Scene, longest_contact, named
-from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface, shorter_in_words
+from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
 from ..units import converted, worded
 from .cells import length_of_rough_contact, no_cells
 
@@ -58,9 +58,8 @@ def limiting_map(scene: Scene, surface: Surface, axis: int) -> tuple[str, str]:
     """Return the section and the file of the measured map that limits ``surface``, made of all maps of the ``scene``,
     along ``axis``; "surface" and no file where none is measured."""
     measured = [(name, str(rough.file)) for rough, name in rough_bodies(scene) if rough.file is not None]
-    begin = shorter_in_words(axis, "")
-    noted = [note.removeprefix(begin) for note in surface.notes if note.startswith(begin)]
-    return next((each for each in measured if each[0] in noted), measured[0] if measured else ("surface", ""))
+    limiting = surface.limited_by[axis]
+    return next((each for each in measured if each[0] == limiting), measured[0] if measured else ("surface", ""))
 
 
 def way_to_longer_line(scene: Scene, surface: Surface) -> str:

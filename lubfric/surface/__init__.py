@@ -5,6 +5,5 @@ from .height_map import Surface
 from .honed import honed_sq
 from .prepare import FORM_POWERS, advised_form, outliers
 from .read import INSTRUMENTS, SUFFIXES, read_surface, units_of
-from .regrid import shorter_in_words
 from .statistics import PER_SQ, autocorrelation, check_slopes, correlation_length, rms_slope
 from .text import DECIMALS

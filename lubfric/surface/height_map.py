@@ -35,6 +35,8 @@ class Surface(FrozenArrays, Shown):
     mask : (nx, ny), True where measured, also after filling. None: everywhere, or where a masked array is not masked
     periodic_axes : whether the map continues smoothly onto itself along x and along y
     source, seed, notes : where it came from, and everything that was done to it
+    used_parts : those of the ``notes`` of a sum that say how much of each of its maps is in it
+    limited_by : the body, "surface" or "counterface", whose map limits a sum along x and along y; "": neither
 
     Raises
     ------
@@ -50,6 +52,8 @@ class Surface(FrozenArrays, Shown):
     source: str = ""
     seed: int | None = None
     notes: tuple[str, ...] = ()
+    used_parts: tuple[str, ...] = ()
+    limited_by: tuple[str, str] = ("", "")
 
     def __post_init__(self) -> None:
         check_labels(self.heights, validate.spacing("spacing", self.spacing))
@@ -68,6 +72,8 @@ class Surface(FrozenArrays, Shown):
         along = validate.pair("periodic_axes", self.periodic_axes, validate.boolean, "true or false")
         object.__setattr__(self, "periodic_axes", along)
         object.__setattr__(self, "notes", tuple(self.notes))
+        object.__setattr__(self, "used_parts", tuple(self.used_parts))
+        object.__setattr__(self, "limited_by", tuple(self.limited_by))
         super().__post_init__()
 
     @property

@@ -136,7 +136,7 @@ def combined(first: Surface, second: Surface) -> Surface:
     _check_size(parts, spacing)
     parts = [surface.resampled(spacing=spacing) for surface in parts]
     shape, periodic_axes = zip(*(_common(axis, *parts) for axis in range(2)))
-    shorter = [_shorter(axis, *parts) for axis in range(2)]
+    limited_by = (_shorter(0, *parts), _shorter(1, *parts))
     parts = [part.patch(shape) for part in parts]
     heights = sum(part.heights - part.heights.mean() for part in parts)
     mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
@@ -146,9 +146,19 @@ def combined(first: Surface, second: Surface) -> Surface:
     notes = [f"{name}: {note}" for name, part in zip(names, parts) for note in part.notes]
     both = f"Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}"
     notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
-    notes += [_part_in_words(name, whole, part) for name, whole, part in zip(names, (first, second), parts)]
-    notes += [shorter_in_words(axis, name) for axis, name in enumerate(shorter) if name]
-    return replace(parts[0], heights=heights, mask=mask, periodic_axes=periodic_axes, source=source, notes=tuple(notes))
+    used = [_part_in_words(name, whole, part) for name, whole, part in zip(names, (first, second), parts)]
+    notes += used
+    notes += [f"the length along {'xy'[axis]} is that of the {name}" for axis, name in enumerate(limited_by) if name]
+    return replace(
+        parts[0],
+        heights=heights,
+        mask=mask,
+        periodic_axes=periodic_axes,
+        source=source,
+        notes=tuple(notes),
+        used_parts=(*(f"{name}: {note}" for name, part in zip(names, parts) for note in part.used_parts), *used),
+        limited_by=limited_by,
+    )
 
 
 def _cut_to_common(pair_of: tuple[Surface, Surface], spacing: tuple[float, float]) -> Surface:
@@ -208,11 +218,6 @@ def _part_in_words(name: str, whole: Surface, part: Surface) -> str:
 def _lengths_in_words(lengths: tuple[float, float]) -> str:
     """Return two lengths [m] along x and y as text, in µm."""
     return f"{lengths[0] * 1e6:.4g} x {lengths[1] * 1e6:.4g}"
-
-
-def shorter_in_words(axis: int, name: str) -> str:
-    """Return the note that the map of the body ``name`` limits the sum of both along ``axis``."""
-    return f"the length along {'xy'[axis]} is that of the {name}"
 
 
 def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:

@@ -135,6 +135,16 @@ class TransientResult(Renamed, Shown):
         return cited(self.methods, format)
 
     @property
+    def refused_outputs(self) -> int:
+        """How many outputs violate an assumption so strongly that f has no meaning."""
+        return sum(any(violation.severe for violation in violations) for violations in self.violations)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all outputs are solved, and f has a meaning at each."""
+        return self.report.converged and not self.refused_outputs
+
+    @property
     def status(self) -> str:
         """What was reached, in sentences; the first words are "Converged", "Not converged" or "Refused"."""
         times = self.requested if len(self.requested) else self.time
@@ -142,10 +152,9 @@ class TransientResult(Renamed, Shown):
         end = worded(float(times[-1]), "s")
         if not self.report.converged:
             return f"Not converged: {self.report.message.partition(': ')[2]}."
-        severe = [any(violation.severe for violation in violations) for violations in self.violations]
-        if any(severe):
+        if not self.is_complete:
             return (
-                f"Refused: all {count} outputs to t = {end} are solved, but at {sum(severe)} of them an assumption "
+                f"Refused: all {count} outputs to t = {end} are solved, but at {self.refused_outputs} of them an assumption "
                 "is violated so strongly that f has no meaning (see the warnings)."
             )
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
