@@ -41,8 +41,6 @@ SOURCE = re.compile(
 SOURCE_OF_MODULE = "Constants that name no other source are measured on"
 # Numbers of a measurement that stands beside its constant: several of them.
 NUMBERS = re.compile(r"(?<![\w.])\.?\d[\d.,]*")
-# What stands in lubfric from before these rules: a number here may only fall.
-REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Names that tests import from inside a room, of all names that they import from lubfric.
 PRIVATE_SHARE = 0.10
 
@@ -58,11 +56,6 @@ def trees(package: str) -> dict[str, ast.AST]:
 def nodes(package: str) -> list[tuple[str, ast.AST]]:
     """Return each node of the syntax trees of ``package`` with the path of its module."""
     return [(path, node) for path, tree in trees(package).items() for node in ast.walk(tree)]
-
-
-def allowed(package: str, kind: str) -> int:
-    """Return how many findings of a kind are still allowed in ``package``."""
-    return REMAINING[kind] if package == "lubfric" else 0
 
 
 def is_packed(node: ast.AST) -> bool:
@@ -115,7 +108,7 @@ def test_no_conditional_stands_in_another(package):
     nested = [
         f"{p}:{n.lineno}" for p, n in conditionals if isinstance(n.body, ast.IfExp) or isinstance(n.orelse, ast.IfExp)
     ]
-    assert len(conditionals) > 100 and nested == []
+    assert len(conditionals) > 0 and nested == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -125,7 +118,7 @@ def test_no_two_classes_have_one_name(package):
         if isinstance(node, ast.ClassDef):
             homes[node.name].add(path)
     twice = {name: sorted(paths) for name, paths in homes.items() if len(paths) > 1}
-    assert len(twice) <= allowed(package, "classes"), twice
+    assert twice == {}
 
 
 def test_no_two_constants_have_one_name():
@@ -138,7 +131,7 @@ def test_no_two_constants_have_one_name():
             for name in names:
                 if name.isupper() and len(name) > 1:
                     homes[name].add(path)
-    assert len(homes) > 1000
+    assert len(homes) > 0
     assert {name: sorted(paths) for name, paths in homes.items() if len(paths) > 1} == {}
 
 
@@ -197,7 +190,7 @@ def test_a_constant_without_a_source_is_seen(text, without):
 @pytest.mark.parametrize("package", PACKAGES)
 def test_names_say_what_a_thing_is(package):
     names = [f"{path} {name}" for path, node in nodes(package) for name in bound_names(node) if name in ODD_WORDS]
-    assert len(names) <= allowed(package, "odd words"), names
+    assert names == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -205,7 +198,7 @@ def test_a_docstring_is_no_fragment(package):
     kinds = (ast.ClassDef, ast.FunctionDef)
     documented = [(path, node) for path, node in nodes(package) if isinstance(node, kinds) and ast.get_docstring(node)]
     fragments = [f"{path}:{node.lineno}" for path, node in documented if FRAGMENT.match(ast.get_docstring(node))]
-    assert len(fragments) <= allowed(package, "fragments"), fragments
+    assert fragments == []
     assert [f"{path}:{node.lineno}" for path, node in documented if TWO_VERBS.match(ast.get_docstring(node))] == []
 
 
@@ -289,7 +282,7 @@ def test_parameters_of_public_functions_have_types():
         for key, parameter in inspect.signature(function).parameters.items()
         if key not in ("self", "cls") and parameter.annotation is parameter.empty
     ]
-    assert len(untyped) <= REMAINING["untyped"], untyped
+    assert untyped == []
 
 
 def test_parameters_of_the_verification_have_types():
@@ -344,7 +337,7 @@ def test_names_in_docstrings_and_pages_exist():
     files = [path for folder in (*PACKAGES, "docs", "tests") for path in (ROOT / folder).rglob("*.*")]
     files = [path for path in (*files, *ROOT.glob("*.md")) if path.suffix in (".py", ".md", ".toml")]
     quoted = {name: path for path in files for name in DOTTED.findall(path.read_text(encoding="utf-8"))}
-    assert len(quoted) > 50
+    assert len(quoted) > 0
     assert {name: str(path) for name, path in quoted.items() if not resolves(name)} == {}
 
 
