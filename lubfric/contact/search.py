@@ -62,13 +62,15 @@ class CandidateSearch:
     ``load`` [Pa cells]: what the pressure has to carry, or None if the approach is prescribed; ``pace``: that of an
     earlier search, or `FIRST_PACE`; ``exact``: whether steps are exact.
 
-    Pressures are in units of the mean one in contact, gaps in units of the scale of ``state``. One value a cell:
+    Pressures are in units of the mean pressure in contact, gaps in units of the scale of ``state``. These arrays have
+    one value for each cell:
 
-    - ``lower``, ``upper``: least and largest change of the pressure (to zero, and to the hardness).
-    - ``gap``: that under the ``known`` change; ``change``: the known change and the part that is still to be convolved.
-    - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the residue from which the
-      ``direction`` was made.
-    - ``trial``: the change to aim at.
+    - ``lower``, ``upper``: smallest and largest allowed change of the pressure (to zero, and to the hardness).
+    - ``change``: the change of the pressure so far; ``known``: the part of it that is convolved already; ``gap``: the gap
+      under the known part.
+    - ``weight``: 1 on free cells, else 0; ``residue``: the gap above its zero level on free cells; ``before``: the
+      residue from which ``direction``, the direction of the step, was made.
+    - ``trial``: the change of the pressure at which the next step aims.
     """
 
     def __init__(

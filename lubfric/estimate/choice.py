@@ -17,7 +17,7 @@ from .solve_to_tolerance import solve_to_tolerance
 # tried in vain. A choice: less leaves points without an answer.
 LEAST_WORK_OF_CHEAPEST = 10.0
 
-# Severe violations with which f may mean something by another model: one that continues the patch is not cut off.
+# Severe violations of one model only. Another model continues the patch, so that its f may have a meaning.
 OF_ONE_MODEL = {Assumption.CONTACT_ON_PATCH}
 
 

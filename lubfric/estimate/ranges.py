@@ -1,4 +1,4 @@
-"""Inputs that are known to a range only: what both ends of each change of f, in its interval."""
+"""Inputs of which only a range is known: how the two ends of each range change f and its interval."""
 
 import math
 from collections.abc import Callable, Iterator

@@ -18,7 +18,7 @@ AT_MOST = (
 CUT_AT_LIMIT = "the interval ends at the largest f by the limits of the shear stress"
 CUT_AT_ZERO = "the interval begins at the smallest f that resists the sliding"
 
-RESISTS_SLIDING = "the interval begins at {:.3g}, the smallest f whose sliding part resists the sliding"
+RESISTS_SLIDING = "the interval begins at {:.3g}: at a smaller f the sliding part would drive the sliding"
 
 # What narrows the sampling error, by whether the sample has more strips.
 SMALLER_SAMPLING_TOLERANCE = "set a smaller numerics.sampling_tolerance to reduce it"

@@ -89,9 +89,10 @@ class SampleSolution(ABC):
         return None
 
     def why_sufficient(self) -> str:
-        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does.
+        """Return as text why numerics.model = "auto" needs no more expensive model; "" where it needs one.
 
-        It is `completed` before where it `may_suffice`. No strip is solved. It may make the `answer`, and a smooth film with it.
+        The solution is `completed` first where it `may_suffice`. No strip is solved, but the `answer`, with its smooth
+        film, may be made.
         """
         return ""
 
@@ -123,8 +124,8 @@ class Model(ABC):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> SampleSolution:
-        """Solve the first ``count`` strips of the line at ``speed`` [m/s], of which a model may solve as many as its own error
-        asks for.
+        """Solve the first ``count`` strips of the line at ``speed`` [m/s]. A model may solve as few of them as its own error
+        needs.
 
         ``sample``: that of ``prepared``, on the cells that are requested, for a model that takes them
         (`takes_cells_of_sample`); ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises

@@ -112,8 +112,8 @@ class ModelAnswer:
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
         (section.key, one of `lubfric.scene.inputs_not_given`); no part of ``model_error``
-    errors : relative errors of the numbers, by name: of the sample the standard error, with ``numerical`` or what it is of
-        that number; the model-form error is not included
+    errors : relative errors of the numbers, by name: the standard error of the sample together with the numerical error,
+        which is that of the number where it is known, else ``numerical``; without the model-form error
     why_no_error, reasons : why an error is not known: of those not in ``errors`` whose number is neither NaN nor 0, and of
         some by name
     length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)

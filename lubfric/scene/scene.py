@@ -212,9 +212,9 @@ class Scene(Shown):
                 oil = keys.pop("oil")  # in place of the numbers that follow from it
                 followed = fields_of(oil, keys["temperature"]) | {"temperature": ...}
                 keys = oil.given_keys | {key: value for key, value in keys.items() if followed.get(key, ...) != value}
-            over = keys.pop("boundary_friction_table", None)
-            if over is not None:
-                keys["boundary_friction_coefficient"] = {over.over: over.at, "values": over.values}
+            table = keys.pop("boundary_friction_table", None)
+            if table is not None:
+                keys["boundary_friction_coefficient"] = {table.over: table.at, "values": table.values}
             for name, low, high in self.ranges:
                 if name.partition(".")[0] == section:
                     keys[name.partition(".")[2]] = (value_of(self, name), low, high)

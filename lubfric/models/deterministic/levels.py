@@ -11,11 +11,11 @@
     4       the same on a quarter               one piece, a sixth as long as a strip
 
 The control is by how much each strip differs from the many strips that Eq. (8) joins
-(`lubfric.models.load_sharing.differences_of_strips`). It shows what is chance in the few. These are few where both models
-scatter alike, as they do about lift-off on most surfaces. Where they do not, the control is omitted. Which of the two
-needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
-doi:10.1287/opre.1070.0496). Where roughness moves there is level 2 alone, with the control of its summits (`summits`)
-and a factor for the cells (`cells_in_motion`).
+(`lubfric.models.load_sharing.differences_of_strips`). Its mean over the few strips is the part of theirs that is chance.
+Few strips are enough where both models scatter alike, as they do near the lift-off speed on most surfaces. Where they do
+not, the control is omitted. The strips that are solved show whether fewer are needed with the control or without it
+(M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496). Where roughness moves there is level 2 alone,
+with the control of its summits (`summits`) and a factor for the cells (`cells_in_motion`).
 """
 
 import math
@@ -453,8 +453,8 @@ def _scatter(
     pairs: Sequence[StripOnTwoGrids], sample: Sample, control: ControlVariate | None = None, share: float = 0.0
 ) -> StandardError:
     """Return the standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the
-    differences of these strips by the ``control``. (On a line of N strips, of which n are pairs, all of the sum
-    scatters as with 1 - n/N: Eq. (8) on the pairs is part of the line.)
+    differences of these strips by the ``control``. (The pairs are n of the N strips of the line. As Eq. (8) on the
+    pairs is part of that on the line, the whole sum scatters with the factor 1 - n/N.)
 
     Strips show their scatter themselves, but few of them badly. Blocks within them show it at once, but off by up to a
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of

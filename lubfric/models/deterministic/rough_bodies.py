@@ -5,7 +5,7 @@ from dataclasses import replace
 from ...contact import HalfSpaceContact
 from ...scene import has_moving_roughness, moving_bodies
 from ...surface import Surface
-from ..shared import Prepared, ReferenceKey, contact_on_strip
+from ..shared import AttenuatedSummitsKey, Prepared, contact_on_strip
 from .moving import RoughBody
 from .summits import SummitControl, control_of
 
@@ -59,5 +59,5 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
         count = max(1, min(sample.available_strips, CONTROL_STRIPS, CONTROL_CELLS // sample.strip(0).heights.size))
         return control_of([sample.strip(index) for index in range(count)], prepared.scene.bodies.half_width)
 
-    key = ReferenceKey(prepared.sample.cells.coarsening, "attenuated summits", 0.0, is_forward=True)
+    key = AttenuatedSummitsKey(coarsening=prepared.sample.cells.coarsening)
     return prepared.memo.get(key, make)

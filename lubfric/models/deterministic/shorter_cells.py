@@ -19,7 +19,7 @@ from ...samples import PIECE_LENGTH, Sample
 from ...scene import has_moving_roughness
 from ..shared import (
     Prepared,
-    ReferenceKey,
+    ShorterCellsKey,
     StandardError,
     block_error,
     contact_on_piece,
@@ -367,7 +367,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
     pieces = prepared.memo.get(
-        ReferenceKey(sample.cells.coarsening, "change by shorter cells", step, speed > 0), make, cells
+        ShorterCellsKey(coarsening=sample.cells.coarsening, step=step, is_forward=speed > 0), make, cells
     )
     return pieces or _pieces(prepared, speed, None)
 

@@ -18,8 +18,8 @@ from ..shared import (
     FEW_CONTACTS,
     SAMPLING_MATTERS,
     BalanceKey,
+    CellEffectKey,
     Prepared,
-    ReferenceKey,
     StandardError,
     add_errors,
     contact_on_joined_strips,
@@ -382,7 +382,7 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) 
             at_ratio = replace(reference, response=response_of(there, reference))
             return effect_of_cells(prepared, there, at_ratio, sample)
 
-        key = ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0)
+        key = CellEffectKey(coarsening=sample.cells.coarsening, speed=there.speed)
         effect = remembered(prepared, sample, key, make)
         more = effect.at_load(balance.contact_load).remaining_change - effect.remaining_change
         if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:

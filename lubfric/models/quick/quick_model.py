@@ -73,7 +73,7 @@ ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction b
 NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick model is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
     "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller. The "
-    "sampling error is for higher asperities that the solved part of the surface may lack; otherwise f does not depend on the sample"
+    "sampling error allows for higher asperities than those of the solved part; otherwise f does not depend on the sample"
 )
 STRIPS_NOT_SOLVED = (
     "friction by Eq. (9), with the error of the load-sharing model: the strips of the quick model were not solved ({})"

@@ -107,9 +107,9 @@ class StripsOnLongCells:
     def numbers(self) -> dict[str, float]:
         """The numbers of the strips without their bias, which is one of the sliding part of f.
 
-        The bias of f is one of the asperity load, with f_b on asperities and the mean stress of the film beside it as
-        they are. What f has beyond that, because asperities carry none or all of the load, or have the stress of the
-        film, remains in the shear of the film. So the forces add up to f.
+        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain. Where
+        the asperity load cannot take all of it, because asperities carry none or all of the load, or have the stress
+        of the film, the remainder is attributed to the shear of the film. So the forces add up to f.
         """
         numbers = self.levels.numbers
         if self.scene.motion.slide_roll_ratio == 0:

@@ -56,7 +56,18 @@ from .heat import (
     typical_heat,
 )
 from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
-from .memo import BalanceKey, DryContactKey, JoinedKey, Key, Memo, OperatorKey, ReferenceKey, numbers_of_fields
+from .memo import (
+    AttenuatedSummitsKey,
+    BalanceKey,
+    CellEffectKey,
+    DryContactKey,
+    JoinedKey,
+    Key,
+    Memo,
+    OperatorKey,
+    ShorterCellsKey,
+    numbers_of_fields,
+)
 from .model_error import (
     BY_HEAT,
     MODEL_ERROR,

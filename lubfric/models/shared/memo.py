@@ -1,7 +1,7 @@
 """What a prepared scene remembers between speeds: contacts, operators and reference points, by typed keys.
 
-What is remembered depends on the prepared scene and its key alone, and its work is counted at each use, as of what is made
-again: what a point has left to spend decides what it solves. So it changes the time that a point takes, never its result.
+A value depends on the prepared scene and its key alone. Its work is counted at each use, also where it is not made again,
+because the work that a point has left decides what it solves. So the memory changes the time of a point, never its result.
 """
 
 from __future__ import annotations
@@ -29,13 +29,15 @@ MOST_MEMO_CELLS = 8_000_000
 class Key(Generic[T]):
     """What is remembered: a frozen dataclass. ``T``: the type of what is remembered under it."""
 
-    is_of_surface_alone: ClassVar[bool] = True  # whether it holds for another speed, lubricant or tolerance
+    # Whether it holds for scenes of the same surface and elastic bodies with another speed, lubricant or tolerance.
+    is_shared_between_scenes: ClassVar[bool]
 
 
 @dataclass(frozen=True)
 class JoinedKey(Key[RoughContact]):
     """The contact on the first ``count`` strips, joined, on cells of this ``coarsening``."""
 
+    is_shared_between_scenes = True
     coarsening: tuple[int, int]
     count: int
 
@@ -44,6 +46,7 @@ class JoinedKey(Key[RoughContact]):
 class StripKey(Key[HalfSpaceContact]):
     """The contact on strip ``index`` alone, on cells of this ``coarsening``."""
 
+    is_shared_between_scenes = True
     coarsening: tuple[int, int]
     index: int
 
@@ -53,6 +56,7 @@ class PieceMapKey(Key[Surface]):
     """The map of piece ``index``, some ``length`` correlation lengths long, on native cells; ``strip_coarsening``: length of the
     cells of the strips, in native ones."""
 
+    is_shared_between_scenes = True
     strip_coarsening: tuple[int, int]
     index: int
     length: float
@@ -62,6 +66,7 @@ class PieceMapKey(Key[Surface]):
 class PieceKey(Key[HalfSpaceContact]):
     """The contact on piece ``index``, on cells of this ``coarsening``, beside strips on cells of the ``strip_coarsening``."""
 
+    is_shared_between_scenes = True
     strip_coarsening: tuple[int, int]
     index: int
     length: float
@@ -72,6 +77,7 @@ class PieceKey(Key[HalfSpaceContact]):
 class OperatorKey(Key[HalfSpace]):
     """The half-space operator of a grid, on bodies of this E'."""
 
+    is_shared_between_scenes = True
     shape: tuple[int, int]
     spacing: tuple[float, float]
     e_prime: float
@@ -82,6 +88,7 @@ class DryContactKey(Key[ContactResult]):
     """A contact without fluid: the digest of its ``rigid_gap``, the arguments of `lubfric.solve_contact`, and
     `HalfSpace.identity` of its operator."""
 
+    is_shared_between_scenes = True
     rigid_gap: bytes
     mean_pressure: float
     hardness: float | None
@@ -94,28 +101,39 @@ class BalanceKey(Key[Any]):
     """A balance of a ``scene`` at a fixed slide-roll ratio, from which those at other speeds and ratios start, on cells of this
     ``coarsening``; ``at``: the expected film [Sq] of its fixed speed; ``is_forward``: whether that is positive."""
 
+    is_shared_between_scenes = True
     scene: Scene
     coarsening: tuple[int, int]
     at: float
     is_forward: bool
 
 
-@dataclass(frozen=True)
-class ReferenceKey(Key[Any]):
-    """A solution at a fixed speed, from which others start or take a correction.
+@dataclass(frozen=True, kw_only=True)
+class CellEffectKey(Key[Any]):
+    """The effect of shorter cells at a fixed ``speed`` [m/s], on cells of this ``coarsening``."""
 
-    ``is_forward``: whether that speed is positive; ``what`` is taken from it, and ``at`` tells it apart from others of that kind:
-
-    - "effect of cells": that speed [m/s];
-    - "change by shorter cells": the number of its step in ln of the expected film;
-    - "attenuated summits": 0, as these depend on no speed.
-    """
-
-    is_of_surface_alone = False
+    is_shared_between_scenes = False
     coarsening: tuple[int, int]
-    what: str
-    at: float
+    speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShorterCellsKey(Key[Any]):
+    """The change by shorter cells than of this ``coarsening`` at a fixed speed: ``step``, its number in ln of the expected
+    film; ``is_forward``: whether it is positive."""
+
+    is_shared_between_scenes = False
+    coarsening: tuple[int, int]
+    step: int
     is_forward: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class AttenuatedSummitsKey(Key[Any]):
+    """The attenuated summits of strips on cells of this ``coarsening``, which depend on no speed."""
+
+    is_shared_between_scenes = False
+    coarsening: tuple[int, int]
 
 
 def numbers_of_fields(contact: ContactResult | None) -> int:
@@ -148,7 +166,7 @@ class Memo:
         Its work is counted at each use. Where the caller has less left, it is made again, so that the limit ends it at the
         same step (`WorkLimitError`), which is not remembered.
         """
-        if key.is_of_surface_alone and self._of_surface is not None:
+        if key.is_shared_between_scenes and self._of_surface is not None:
             return self._of_surface.get(key, make, cells)
         entry = self._kept.get(key)
         if entry is not None and entry.work <= work_left():
@@ -162,7 +180,7 @@ class Memo:
 
     def put(self, key: Key[T], value: T, cells: int = 0, work: float = 0.0) -> None:
         """Keep ``value``, which has so many ``cells`` and took so much counted ``work`` [s]."""
-        if key.is_of_surface_alone and self._of_surface is not None:
+        if key.is_shared_between_scenes and self._of_surface is not None:
             self._of_surface.put(key, value, cells, work)
             return
         self._kept[key] = MemoEntry(value=value, cells=cells, work=work)
