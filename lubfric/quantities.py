@@ -339,6 +339,7 @@ OF_SIDES = {  # of the errors of f that differ towards 0 and away from it
 }
 OF_MOMENT = {  # of a run in time, in the order of its table
     "time": Quantity("s", "time"),
+    "angle_of_rotation": Quantity("°", "angle of rotation", note="NaN without transient.rotational_speed"),
     "entrainment_speed": _OF_POINT["speed"],
     "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
     "load": Quantity("N", "total load", "F_T"),

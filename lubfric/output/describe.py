@@ -57,7 +57,7 @@ from ..time import (
     scene_at,
     speeds_of_run,
 )
-from ..units import plain_number, worded
+from ..units import converted, plain_number, worded
 from .inputs import FACTS, input_rows
 
 # Speeds of many at which the work is counted, about. A choice: fewer take less time, and estimate worse.
@@ -431,6 +431,12 @@ def _histories(scene: Scene) -> list[str]:
     start = "steady if there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
     if plan.initial_film is not None:
         start = f"film of {worded(plan.initial_film, 'm')}"
+    if plan.rotational_speed is not None:
+        turns = plan.rotational_speed * plan.duration
+        per_minute = converted(plan.rotational_speed, "Hz", "1/min")
+        rows.append(
+            f"rotational speed: {per_minute:.4g} 1/min, {turns:.4g} {'turn' if turns == 1 else 'turns'} in the run"
+        )
     return [*rows, f"start: {start}"]
 
 
@@ -484,8 +490,11 @@ def _speed_table(
 def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[str, ...]]:
     """Return the table of a run in time: at `_chosen_times`, with the load and the radius of the moment."""
     fastest = abs(_fastest_moment(scene).motion.entrainment_speed)
+    assert scene.transient is not None
+    has_angle = scene.transient.rotational_speed is not None
+    over = ("t [s]", "angle [°]") if has_angle else ("t [s]",)
     table: list[tuple[str, ...]] = [
-        ("t [s]", "U [m/s]", "load [N]", "radius [mm]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")
+        (*over, "U [m/s]", "load [N]", "radius [mm]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")
     ]
     for time in _chosen_times(scene):
         now = scene_at(scene, time)
@@ -495,7 +504,8 @@ def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[
         film = ("", "", "0", "0", "no entrainment")
         if speed != 0:
             film = _film_in_words(now, surface, speed, asperities)
-        values = (time, speed, now.bodies.load, 1e3 * now.bodies.radius)
+        moment = (time, scene.transient.angle_at(time)) if has_angle else (time,)
+        values = (*moment, speed, now.bodies.load, 1e3 * now.bodies.radius)
         table.append((*(f"{value:.4g}" for value in values), *film))
     return table
 

@@ -93,7 +93,7 @@ def _bodies(scene: Scene) -> list[str]:
         low, high, time = _cycle_peak_pressure(scene)
         widths = [scene_at(scene, each).bodies.half_width for each in sampled_times(scene)]
         rows = [
-            f"Hertz: peak pressure {_pressures_in_words(low, high, time)}; half-width "
+            f"Hertz: peak pressure {_pressures_in_words(scene, low, high, time)}; half-width "
             f"{range_in_words(min(widths), max(widths), 'm')}; area A of the volume balance: the strip of bodies.load and "
             f"bodies.radius, of half-width {worded(b.half_width, 'm')}"
         ]
@@ -102,11 +102,13 @@ def _bodies(scene: Scene) -> list[str]:
     return rows
 
 
-def _pressures_in_words(low: float, high: float, time: float) -> str:
+def _pressures_in_words(scene: Scene, low: float, high: float, time: float) -> str:
     """Return the smallest and the largest peak pressure [Pa] of a run, the latter at a ``time`` [s], as text."""
     if worded(low, "Pa") == worded(high, "Pa"):
         return f"{worded(high, 'Pa')} at all times"
-    return f"{range_in_words(low, high, 'Pa')} over the run, largest at t = {worded(time, 's')}"
+    assert scene.transient is not None
+    moment = scene.transient.moment_in_words(time)
+    return f"{range_in_words(low, high, 'Pa')} over the run, largest at t = {moment}"
 
 
 def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import FloatArray, figures
 from ..errors import InputError
 from ..studies import friction_over_speed, gaps_of, interval_band
-from ..time import band_label, friction_over_time, in_motion, time_scale
+from ..time import add_angle_axis, band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
@@ -331,6 +331,7 @@ def plot_history(
         fifth.set_xlabel(fourth.get_xlabel())
         fourth.set_xlabel("")
     fourth.set_xlim(t[0], t[-1])
+    add_angle_axis((fourth, *others)[-1], c)
     options.scale(fourth, friction=fourth, f=c["coefficient"])
     options.thin(figure)
     figures.fit_labels(figure)

@@ -40,6 +40,7 @@ OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
 # Columns of the table of a run in time: before f, or after it.
 OF_OUTPUT = {
     "time": "before",
+    "angle_of_rotation": "before",
     "entrainment_speed": "before",
     "sliding_speed": "before",
     "load": "before",
@@ -723,15 +724,15 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     if result.model_form_unknown:
         sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
     range_ = with_interval(float(f[peak]), low, high, level)
-    sentences.append(f"The largest f is {range_}, at t = {worded(float(result.time[peak]), 's')}.")
+    sentences.append(f"The largest f is {range_}, at t = {_moment(scene, result, peak)}.")
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(result)}.")
+        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(scene, result)}.")
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
         if run_model_of(scene).solves_rough_film
-        else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
+        else f"The solved film is thinnest {_moment_of_least_film(scene, result)}: {film}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
@@ -748,21 +749,27 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     return sentences
 
 
-def _largest_power_loss(result: TransientResult) -> str:
+def _moment(scene: Scene, result: TransientResult, index: int) -> str:
+    """Return the time of an output, and the angle of rotation where it is known, as text."""
+    assert scene.transient is not None
+    return scene.transient.moment_in_words(float(result.time[index]))
+
+
+def _largest_power_loss(scene: Scene, result: TransientResult) -> str:
     """Return the largest power loss of a run, with its interval where that is known, and its time, as text."""
     columns = result.columns
     index = int(np.nanargmax(result.power_loss))
     (low, high) = (float(columns[f"power_loss_{end}"][index]) for end in ("low", "high"))
     largest = with_interval(float(result.power_loss[index]), low, high, unit="W")
-    return f"the largest {largest} at t = {worded(float(result.time[index]), 's')}"
+    return f"the largest {largest} at t = {_moment(scene, result, index)}"
 
 
-def _moment_of_least_film(result: TransientResult) -> str:
+def _moment_of_least_film(scene: Scene, result: TransientResult) -> str:
     """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
     index = int(np.nanargmin(result.min_film))
     film = 1.0 - float(result.contact_load[index] / result.load[index])
     others = " and asperities carry the rest" if film < 1.0 else ""
-    return f"at t = {worded(float(result.time[index]), 's')}, where it carries {100 * film:.3g} % of the load{others}"
+    return f"at t = {_moment(scene, result, index)}, where it carries {100 * film:.3g} % of the load{others}"
 
 
 def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
@@ -836,7 +843,9 @@ def _history_table(result: TransientResult) -> str:
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
     shown |= {name: np.where(moving, shown[name], 0.0) for name in ("entrainment_speed", "sliding_speed", "power_loss")}
     shown |= {name: np.where(entrains, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
-    before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
+    without_angle = not np.isfinite(c["angle_of_rotation"]).any()
+    omitted = {"angle_of_rotation"} if without_angle else set()
+    before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before" and name not in omitted]
     after = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "after"]
     heads = [_heading(name, units[name]) for name in before]
     heads += [

@@ -141,4 +141,6 @@ def _table(result: TransientResult) -> bytes:
     for name in ("coefficient", "interval_low", "interval_high"):
         values = result.columns[name].tolist()
         columns[heading(name)] = [value if moves else "" for value, moves in zip(values, moving)]
+    if not np.isfinite(result.angle_of_rotation).any():
+        del columns[heading("angle_of_rotation")]
     return table_bytes(columns | {"validity": [in_a_cell(violations) for violations in result.violations]})

@@ -13,6 +13,7 @@ from typing import Any
 from .._base import validate, with_default_errors, write_whole
 from ..errors import InputError
 from ..surface import PER_SQ
+from ..units import without_unit
 from .plausible import doubtful_values
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene, as_ranges
@@ -25,8 +26,9 @@ from .sections import (
     made_section,
     meant,
     ranges_of,
+    read_value,
 )
-from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
+from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history, is_angle, times_of_angles
 
 # Limits by choice: a longer file or path is no scene, and a less alike name is another one.
 MOST_SCENE_BYTES = 2**24  # of a scene
@@ -209,9 +211,15 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
+    rotational_speed = _rotational_speed(given)
+    for name in ("duration", "first_output"):
+        if is_angle(given.get(name)):
+            given[name] = times_of_angles([without_unit(f"transient.{name}", given[name], "°")], rotational_speed)[0]
     places = {name: key.split(".") for name, key in HISTORIES.items()}
     histories = {
-        n: history(f"transient.{n}", given.pop(n), UNITS_OF_HISTORIES[n], folder) for n in HISTORIES if n in given
+        n: history(f"transient.{n}", given.pop(n), UNITS_OF_HISTORIES[n], folder, rotational_speed)
+        for n in HISTORIES
+        if n in given
     }
     in_plan = set(histories)
     for name, (section, key) in places.items():
@@ -221,7 +229,8 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
         if isinstance(value, dict) or (value is not None and name == "sliding"):
             if name in histories:
                 raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
-            histories[name] = history(f"{section}.{key}", table[section].pop(key), UNITS_OF_HISTORIES[name], folder)
+            value = table[section].pop(key)
+            histories[name] = history(f"{section}.{key}", value, UNITS_OF_HISTORIES[name], folder, rotational_speed)
     if not histories and "transient" not in table:
         return table, None
     if "duration" not in given:
@@ -238,6 +247,14 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
             value = histories[name].range(plan.duration)[1] if name == "load" else histories[name].before(0.0)
             table.setdefault(section, {})[key] = value
     return table, plan
+
+
+def _rotational_speed(given: dict[str, Any]) -> float | None:
+    """Return the rotational speed [Hz] in the keys ``given`` for [transient]; None without one."""
+    if given.get("rotational_speed") is None:
+        return None
+    name = "transient.rotational_speed"
+    return validate.positive(name, read_value("transient", "rotational_speed", given["rotational_speed"])[0], "Hz")
 
 
 def _read(source: object) -> tuple[dict[str, Any], Path, str]:

@@ -18,6 +18,7 @@ from .registry import check_run, estimated_run, may_move_roughness, run_model_of
 from .result import (
     PARTS_NOT_IN_TIME,
     TransientResult,
+    add_angle_axis,
     band_label,
     errors_in_time,
     friction_over_time,

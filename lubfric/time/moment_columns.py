@@ -7,6 +7,7 @@ import numpy as np
 from ..estimate import power_of_forces
 from ..scene import Scene
 from .march import Progress
+from .scene_in_time import transient_of
 
 
 def sense_of(speed: float) -> float:
@@ -32,6 +33,7 @@ def motion_columns(
     speed = scene.motion.entrainment_speed
     return {
         "time": now.time,
+        "angle_of_rotation": transient_of(scene).angle_at(now.time),
         "entrainment_speed": speed,
         "sliding_speed": sliding,
         "load": scene.bodies.load,

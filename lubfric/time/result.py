@@ -48,6 +48,13 @@ SAME_CONDITIONS = 1e-3
 OTHER_RATIO = 0.02
 OTHER_FILM = 0.05
 
+# Steps between the ticks of an axis of angles [°], and the most ticks of it. A choice, for round parts of a turn.
+DEGREE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+MOST_DEGREE_TICKS = 9.0
+ANGLE_PAD = (
+    33.0  # pt: from an axis of time to the numbers of the angle below its label; a choice, by looking at figures
+)
+
 MASS = 1e-3  # largest residual of a step's mass; a choice: less refuses runs, more leaves an error of the film
 
 
@@ -266,6 +273,7 @@ class TransientResult(Renamed, Shown):
             time = self.time * time_scale(self.time[-1])[0]
             axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(self.columns))
         friction_over_time(axes, self.columns)
+        add_angle_axis(axes, self.columns)
         return axes
 
     def plot_loop(self, ax: "Axes | None" = None) -> "Axes":
@@ -486,6 +494,28 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
         axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest_band)
     axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION_LABEL)
     figures.key_above(axes)
+
+
+def add_angle_axis(axes: "Axes", c: dict[str, np.ndarray]) -> None:
+    """Add an axis of the angle of rotation below that of the time of ``axes``, by the ``c`` of a `lubfric.TransientResult`; none
+    where the angle is not known."""
+    angle = c.get("angle_of_rotation", np.full(1, np.nan))
+    if not np.isfinite(angle).any():
+        return
+    shown_time = c["time"][-1] * time_scale(c["time"][-1])[0]
+    degrees = angle[-1] / shown_time
+    axis = axes.secondary_xaxis("bottom", functions=(lambda time: time * degrees, lambda angle: angle / degrees))
+    axis.set_xlabel(axis_label("angle_of_rotation"))
+    axis.set_xticks(np.arange(*degree_ticks(float(angle[0]), float(angle[-1]))))
+    axis.tick_params(length=0.0, pad=ANGLE_PAD)
+
+
+def degree_ticks(first: float, last: float) -> tuple[float, float, float]:
+    """Return the first tick [°] of an axis of angles from ``first`` to ``last``, a number above its last one, and their step."""
+    least = (last - first) / MOST_DEGREE_TICKS
+    turns = DEGREE_STEPS[-1] * math.ceil(least / DEGREE_STEPS[-1])
+    step = next((step for step in DEGREE_STEPS if step >= least), turns)
+    return step * math.ceil(first / step), last + 0.5 * step * (last % step == 0), step
 
 
 def time_scale(longest: float) -> tuple[float, str]:

@@ -628,7 +628,7 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
         "accept",  # tests/sharing/test_validity.py
         "max_work",  # tests/scene/test_max_work.py
     },
-    "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/time/test_transient_mixed.py
+    "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/time/test_transient_mixed.py, test_angle.py
 }
 
 
