@@ -6,7 +6,6 @@
 
 import math
 from dataclasses import replace
-from typing import Any
 
 from .._base import increasing_root, validate, with_default_errors
 from ..errors import returned
@@ -21,9 +20,9 @@ from .start import FilmState, solution_state
 
 # Flow over the flooded one [-] below which the flow of a starved film falls by steps. A choice: less saves films, and
 # may fail.
-HALF = 0.5
+FLOW_BY_STEPS = 0.5
 # Flow of a step over that of the one before [-]. A choice: less needs fewer films, and may lose the way.
-LESS = 0.6
+FLOW_OF_STEP = 0.6
 # Effort of the films on the way. A choice: that of two grids (`TWO_GRIDS_TOLERANCE`), for a start.
 EFFORT_ON_THE_WAY = Effort(5e-3)
 # Distance of an inlet over the length on which a flooded film builds up [-] that counts as flooded. A choice, far
@@ -118,7 +117,8 @@ def solve_line_contact(
         solutions = solved(problem, effort, state)
     else:
         solutions = _fed(problem, arriving / line.film_unit, effort, state)
-    return returned(assemble(*solutions, effort.tolerance), raise_on_failure=raise_on_failure)
+    film = assemble(solutions.problem, solutions.on_grids, solutions.before, solutions.notes, effort.tolerance)
+    return returned(film, raise_on_failure=raise_on_failure)
 
 
 def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None) -> NestedSolutions:
@@ -139,31 +139,31 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
     if state is not None and state.problem.fed is not None:
         problem, on_grids = fed_from(state, flow)
         if is_sound(on_grids) and -on_grids[-1].terms.X[0] <= furthest:
-            return problem, on_grids, [], ()
-    problem, on_grids, first, notes = solved(full, effort, state)
-    flooded = on_grids[-1].terms.q
-    if not is_sound(on_grids) or flooded <= flow:
-        return problem, on_grids, first, notes
+            return NestedSolutions(problem=problem, on_grids=on_grids)
+    of_full = solved(full, effort, state)
+    flooded = of_full.finest.terms.q
+    if not is_sound(of_full.on_grids) or flooded <= flow:
+        return of_full
     known = flooded / full.film_guess
-    aim = max(flow, HALF * flooded)
+    aim = max(flow, FLOW_BY_STEPS * flooded)
     there = replace(full, inlet=min(full.inlet_of(aim / known), furthest))
     near, closer = first_state(there, coarsest(full), effort.max_iterations)
-    spent = first + on_grids + closer
+    spent = of_full.before + of_full.on_grids + closer
     while True:
         problem, fed = fed_from(near, aim, known)
         if aim == flow or not is_sound(fed):
             break
         near = solution_state(problem, fed[-1], 0.0)
-        aim = max(flow, LESS * aim)
+        aim = max(flow, FLOW_OF_STEP * aim)
         spent = spent + fed
-    if is_sound(fed) or flow < HALF * flooded:
-        return problem, fed, spent, notes
-    return _searched_inlet(problem, effort, solution_state(full, on_grids[-1], 0.0), furthest, spent + fed, notes)
+    if is_sound(fed) or flow < FLOW_BY_STEPS * flooded:
+        return NestedSolutions(problem=problem, on_grids=fed, before=spent, notes=of_full.notes)
+    near = solution_state(full, of_full.finest, 0.0)
+    solutions = _searched_inlet(problem, effort, near, furthest)
+    return replace(solutions, before=spent + fed + solutions.before, notes=of_full.notes)
 
 
-def _searched_inlet(
-    problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent: Any, notes: Any
-) -> NestedSolutions:
+def _searched_inlet(problem: FilmProblem, effort: Effort, state: FilmState, furthest: float) -> NestedSolutions:
     """Return the solutions under a given flow by a search for the inlet. Where nearly as much arrives as the full inlet
     takes, the flow depends little on where the lubricant begins, and Newton's method for that place fails."""
     flow = problem.fed
@@ -171,15 +171,19 @@ def _searched_inlet(
     b = problem.half_width
     assert flow is not None and guess is not None
 
-    def surplus(log_distance: float, last: Any) -> tuple[float, NestedSolutions]:
-        closer = replace(effort, least_cells=max(effort.least_cells, last[1][-1].grid.n)) if last else effort
+    def surplus(log_distance: float, last: NestedSolutions | None) -> tuple[float, NestedSolutions]:
         there = replace(problem, fed=None, inlet=b + math.exp(log_distance))
-        near = solution_state(there, last[1][-1], 0.0) if last else state
+        near = state
+        closer = effort
+        if last is not None:
+            near = solution_state(there, last.finest, 0.0)
+            closer = replace(effort, least_cells=max(effort.least_cells, last.finest.grid.n))
         solutions = solved(there, closer, near)
-        return math.log(solutions[1][-1].terms.q / flow), solutions
+        return math.log(solutions.finest.terms.q / flow), solutions
 
     bounds = math.log(1e-3 * (guess - b)), math.log(furthest - b)
     root = increasing_root(surplus, math.log(guess - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance)
-    there, on_grids, first, _ = root.payload
+    solutions: NestedSolutions = root.payload
     takes_full_inlet = root.value < 0 and root.x == bounds[1]  # on these cells the full inlet takes no more
-    return replace(there, fed=None if takes_full_inlet else flow), on_grids, spent + first, notes
+    fed = None if takes_full_inlet else flow
+    return replace(solutions, problem=replace(solutions.problem, fed=fed), notes=())

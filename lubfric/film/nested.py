@@ -1,7 +1,7 @@
 """Solutions on nested grids, from a warm or a cold start, each to the requested tolerance."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -39,10 +39,30 @@ STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)
 # Moes' L [-] up to which Newton's method starts safely. A choice: more saves solves of hard films, and may fail.
 EASY_MATERIAL_NUMBER = 4.0
 # Growth of L between two solutions [-]. A choice: more saves solves of hard films, and may fail.
-STAGE = 1.4
+GROWTH_OF_MATERIAL_NUMBER = 1.4
 
-# A problem, its solutions on its grids, those that led there, and notes.
-NestedSolutions = tuple[FilmProblem, list[FilmSolution], list[FilmSolution], tuple[str, ...]]
+
+@dataclass(frozen=True, kw_only=True)
+class NestedSolutions:
+    """The solutions of a problem on nested grids.
+
+    Attributes
+    ----------
+    problem : what is solved
+    on_grids : its solutions on ever finer grids
+    before : the solutions that led there
+    notes : remarks on the way there, for the report
+    """
+
+    problem: FilmProblem
+    on_grids: list[FilmSolution]
+    before: list[FilmSolution] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def finest(self) -> FilmSolution:
+        """The solution on the finest grid."""
+        return self.on_grids[-1]
 
 
 @dataclass(frozen=True)
@@ -66,10 +86,10 @@ def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> Nes
     if state is not None:
         on_grids = warm(problem, effort, state)
         if is_sound(on_grids):
-            return problem, on_grids, [], notes
+            return NestedSolutions(problem=problem, on_grids=on_grids)
         notes = ("the warm start failed; solved again from a cold start",)
-    on_grids, first, retries = _cold(problem, effort)
-    return problem, on_grids, first, notes + retries
+    solutions = _cold(problem, effort)
+    return replace(solutions, notes=notes + solutions.notes)
 
 
 def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSolution]:
@@ -81,11 +101,8 @@ def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSol
     return _ascend(problem, effort, state, n, 2)
 
 
-def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], list[FilmSolution], tuple[str, ...]]:
-    """Return a solution from a cold start on grids from the coarsest up; if that fails, from a finer grid.
-
-    Returns its solutions, those that led there, and notes.
-    """
+def _cold(problem: FilmProblem, effort: Effort) -> NestedSolutions:
+    """Return ``problem`` from a cold start on grids from the coarsest up; if that fails, from a finer grid."""
     spent: list[FilmSolution] = []
     notes: tuple[str, ...] = ()
     usual = coarsest(problem)
@@ -95,11 +112,11 @@ def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], lis
         state, first = first_state(problem, n, effort.max_iterations)
         on_grids = _ascend(problem, effort, state, n, 2 if effort.tolerance >= TWO_GRIDS_TOLERANCE else 3)
         if is_sound(on_grids):
-            return on_grids, spent + first, notes
+            return NestedSolutions(problem=problem, on_grids=on_grids, before=spent + first, notes=notes)
         spent += first + on_grids
         if on_grids[0].status == CONVERGED and on_grids[-1].grid.n >= COARSEST_CELLS * 2 ** (STARTS - 1):
             break  # it is not the start that fails
-    return on_grids, spent[: -len(on_grids)], notes
+    return NestedSolutions(problem=problem, on_grids=on_grids, before=spent[: -len(on_grids)], notes=notes)
 
 
 def coarsest(problem: FilmProblem) -> int:
@@ -129,11 +146,11 @@ def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState
     """Return the first state, and the chain of rough solutions on n cells that leads there, each started from the one
     before.
 
-    alpha rises from the value at which L = EASY, then shear begins to thin the oil, and the inlet moves inwards.
+    alpha rises from the value at which L is `EASY_MATERIAL_NUMBER`, then shear begins to thin the oil, and the inlet moves inwards.
     """
     shares = [min(1.0, EASY_MATERIAL_NUMBER / max(problem.L, EASY_MATERIAL_NUMBER))]
     while shares[-1] < 1.0:
-        shares.append(min(1.0, STAGE * shares[-1]))
+        shares.append(min(1.0, GROWTH_OF_MATERIAL_NUMBER * shares[-1]))
     inlets = _inwards(problem)
     widest = replace(problem, inlet=inlets[0])
     stages = [widest.softened(share) for share in shares]

@@ -28,7 +28,7 @@ MOST_CHOSEN_SPEEDS = 25
 
 # Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication. A choice: less costs speeds
 # that show f_b alone.
-THIN = 0.02
+BOUNDARY_FILM_RATIO = 0.02
 
 # Moes' film of the whole load over Sq at the fast end of a curve: full-film lubrication. A choice, twice that of
 # lift-off.
@@ -46,7 +46,7 @@ EXPECTED_FILM_RATIOS = (0.07, 0.2, 0.5, 0.85, 1.15, 1.5, 2.1, 2.7, 4.5, 5.2)
 EXPECTED_SPEEDS = 12
 
 # Speeds to begin with. It follows from both ends and `MIXED_FILM_RATIOS`: a choice.
-BEGIN = 5
+FIRST_SPEEDS = 5
 
 # Speeds [m/s] between which the ends of a curve are searched. A choice: no contact moves slower or faster.
 SLOWEST_SEARCHED = 1e-9
@@ -57,7 +57,7 @@ FASTEST_SEARCHED = 1e3
 LIFT_OFF_KNOWN_ABOVE = 1.2
 
 # Speed over lift-off at which a film without contact is solved. A choice: nearer it may meet contact.
-ABOVE = 1.1
+SPEED_ABOVE_LIFT_OFF = 1.1
 
 # Ratio of the fastest contact to lift-off from which the end of the contact is known. A choice: more takes a further
 # point.
@@ -84,7 +84,7 @@ MANY_SPEEDS = 11
 LEAST_SPEED_RATIO = 1.015
 
 # Speeds at which the error between the points is estimated. A choice: finer than any two speeds of a curve.
-GRID = 400
+SPEEDS_OF_ERROR = 400
 
 
 def requested_speeds(scene: Scene, speeds: Any) -> tuple[float, ...]:
@@ -129,7 +129,7 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST_SPEEDS:
-            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
+            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)
         ahead = [] if wanted is None else [wanted]
 
 
@@ -140,8 +140,8 @@ def tolerance_between(prepared: Prepared) -> float:
     return prepared.sample.tolerance_between(prepared.scene.numerics)
 
 
-def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:
-    """Return the speed [m/s] to solve next, or None if the curve is known; and the largest estimated relative error of f now.
+def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> float | None:
+    """Return the speed [m/s] to solve next, or None if the curve is known.
 
     ``tried``: speeds that failed and are left alone.
 
@@ -152,31 +152,38 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     samples = curve.samples
     knee = curve.lift_off
     speeds = samples.speed
-    grid = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
     taken = np.append(speeds, np.array([*tried], dtype=float))
-    error = np.where(_free(grid, taken), curve.error(grid), 0.0)
-    largest = float(error.max())
     wanting = []
     films = speeds[samples.contacts :]
     if knee is not None:
         fastest = speeds[samples.contacts - 1]
         slowest = films[0]
-        wanting += [ABOVE * knee] if slowest > LIFT_OFF_KNOWN_ABOVE * knee else []
+        wanting += [SPEED_ABOVE_LIFT_OFF * knee] if slowest > LIFT_OFF_KNOWN_ABOVE * knee else []
         wanting += [SPEED_BELOW_LIFT_OFF * knee] if fastest < CONTACT_END_KNOWN_FROM * knee else []
     # gaps that are too wide to judge
     wanting += [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > MOST_SPEED_RATIO * a]
     for wanted in wanting:
         about = np.count_nonzero(np.abs(np.log(taken / wanted)) < 0.1)
         if about < ENOUGH_SPEEDS and _free(np.array([wanted]), taken)[0]:
-            return wanted, largest
-    if largest <= (tolerance if speeds.size >= MANY_SPEEDS else ESTIMATE_SHARE * tolerance):
-        return None, largest
-    return float(grid[error.argmax()]), largest
+            return wanted
+    grid, error = _errors_between(curve, taken)
+    if error.max() <= (tolerance if speeds.size >= MANY_SPEEDS else ESTIMATE_SHARE * tolerance):
+        return None
+    return float(grid[error.argmax()])
 
 
 def between(curve: Interpolant) -> float:
     """Return the largest relative error of f that a curve is estimated to have between its points."""
-    return next_speed(curve, math.inf)[1]
+    _, error = _errors_between(curve, curve.samples.speed)
+    return float(error.max())
+
+
+def _errors_between(curve: Interpolant, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return speeds [m/s] between the ends of a curve and the estimated relative error of f at each, which is 0 near the
+    speeds that are ``taken``."""
+    speeds = curve.samples.speed
+    grid = np.geomspace(speeds[0], speeds[-1], SPEEDS_OF_ERROR)[1:-1]
+    return grid, np.where(_free(grid, taken), curve.error(grid), 0.0)
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
@@ -188,7 +195,7 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     """Return the first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the
     total load is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to
     full film."""
-    return _speeds_at(scene, sq, MIXED_FILM_RATIOS, BEGIN)
+    return _speeds_at(scene, sq, MIXED_FILM_RATIOS, FIRST_SPEEDS)
 
 
 def expected_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
@@ -229,10 +236,13 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
         return speeds[0], speeds[-1]
     if sq <= 0:
         raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
-    if film_ratio(scene, sq, SLOWEST_SEARCHED) > THIN or film_ratio(scene, sq, FASTEST_SEARCHED) < FULL_FILM_RATIO:
+    if (
+        film_ratio(scene, sq, SLOWEST_SEARCHED) > BOUNDARY_FILM_RATIO
+        or film_ratio(scene, sq, FASTEST_SEARCHED) < FULL_FILM_RATIO
+    ):
         message = " = 'auto' finds no range from boundary lubrication to a full film"
         raise InputError(message, "speeds", recommendation="give motion.speed_range")
-    return _speed_of(scene, sq, THIN, SLOWEST_SEARCHED, FASTEST_SEARCHED), _speed_of(
+    return _speed_of(scene, sq, BOUNDARY_FILM_RATIO, SLOWEST_SEARCHED, FASTEST_SEARCHED), _speed_of(
         scene, sq, FULL_FILM_RATIO, SLOWEST_SEARCHED, FASTEST_SEARCHED
     )
 

@@ -101,7 +101,7 @@ def surface_generator(
     shape: tuple[int, int],
     spacing: float | tuple[float, float],
     *,
-    correlation_length: float,
+    correlation_length: float | tuple[float, float],
     acf: str,
     decay_level: float,
     sq: float | None = None,
@@ -256,7 +256,7 @@ def _expected_lengths(
     from scipy import fft
 
     acf = fft.irfft2(spectrum, shape)
-    cutoffs = []
+    expected = []
     for axis, line in enumerate((acf[:, 0], acf[0, :])):
         half = shape[axis] // 2 + 1
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
@@ -267,8 +267,8 @@ def _expected_lengths(
             )
             allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
             raise InputError(message, f"correlation_length along {'xy'[axis]}", allowed)
-        cutoffs.append(length)
-    return cutoffs
+        expected.append(length)
+    return expected
 
 
 def _found_length(surface: Surface, axis: int, level: float) -> str:

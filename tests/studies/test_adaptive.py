@@ -9,7 +9,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric.studies import Interpolant, Samples, knee_of, span
-from lubfric.studies.choose import next_speed
+from lubfric.studies.choose import between, next_speed
 
 FIRST = np.geomspace(1e-4, 1.0, 5)
 
@@ -67,7 +67,9 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
     curve = Made(lift_off, exponent)
     speeds = [1e-4, *(lift_off * np.array([0.1, 0.45, 1.6])), 1.0]
     while len(speeds) < 25:
-        speed, error = next_speed(curve.through(np.array(speeds)), tolerance)
+        interpolant = curve.through(np.array(speeds))
+        speed = next_speed(interpolant, tolerance)
+        error = between(interpolant)
         if speed is None:
             break
         assert 1e-4 < speed < 1.0 and min(abs(np.log(speed / np.array(speeds)))) > 0.01
@@ -118,7 +120,7 @@ def test_f_between_points_that_a_spline_overshoots_is_not_known():
 def test_curves_without_a_knee(lift_off):
     curve = Made(lift_off, 0.8)
     speeds = list(FIRST)
-    while (speed := next_speed(curve.through(np.array(speeds)), 0.01)[0]) is not None:
+    while (speed := next_speed(curve.through(np.array(speeds)), 0.01)) is not None:
         speeds.append(speed)
     result = curve.through(np.array(speeds))
     at = np.geomspace(1e-4, 1.0, 500)

@@ -69,7 +69,7 @@ POINT_SECONDS = 0.012
 FILM_SECONDS = 0.015
 
 # Factor on that with heat.
-HOT = 5.0
+HEAT_TIME_RATIO = 5.0
 
 # Cells in a correlation length along x, at most, until which cells are halved in the mean where the heights are not smooth over a cell
 # and the film carries a part of the load (`SHARED_IF_ROUGH`). Fitted to the halvings of 53 of these points, by their likelihood.
@@ -163,7 +163,7 @@ def _asperities(film: float, summit: float) -> str:
 
 def _times_by_heat(scene: Scene) -> float:
     """Return the factor on the time of a film by its heat."""
-    return HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
+    return HEAT_TIME_RATIO if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
 
 
 def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
