@@ -35,8 +35,8 @@ _MOST_FORECAST: ContextVar[float] = ContextVar("most forecast work", default=mat
 
 @contextmanager
 def limited_work(limit: float) -> Iterator[WorkMeter]:
-    """Limit the work [s] that is counted inside, in this thread, in place of a limit outside, which counts it but does not end
-    it."""
+    """Limit the work [s] that is counted inside, in this thread. The limit replaces an outer one, whose meter adds this work
+    afterwards and cannot stop it."""
     outer = _METER.get()
     meter = WorkMeter(limit=limit)
     token = _METER.set(meter)

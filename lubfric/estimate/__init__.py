@@ -14,7 +14,7 @@ The way of a point, in the order of the modules:
 """
 
 from .build_result import beside_larger_part
-from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
+from .friction import friction, most_work_of_estimate
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .power import power_of_forces

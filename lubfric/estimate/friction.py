@@ -93,10 +93,14 @@ def friction(
 
 
 def most_work(prepared: Prepared, speed: float) -> float:
-    """Return the counted work [s] that a point may take: ``numerics.max_work``, or `TIMES_ESTIMATE` the estimate."""
+    """Return the counted work [s] that a point may take: ``numerics.max_work``, or `most_work_of_estimate`."""
     scene = prepared.scene
     if scene.numerics.max_work is not None:
         return scene.numerics.max_work
-    return max(
-        LEAST_LIMIT, TIMES_ESTIMATE * estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).seconds
-    )
+    return most_work_of_estimate(estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).seconds)
+
+
+def most_work_of_estimate(seconds: float) -> float:
+    """Return the counted work [s] that a solve of estimated ``seconds`` may take without ``numerics.max_work``:
+    `TIMES_ESTIMATE` the estimate, at least `LEAST_LIMIT`."""
+    return max(LEAST_LIMIT, TIMES_ESTIMATE * seconds)

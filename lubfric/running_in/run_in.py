@@ -6,6 +6,7 @@ First the dry cylinder moves along the map, step by step, and pass by pass, unti
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -210,47 +211,53 @@ def run_in(
         more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
     """
     validate.called_back("on_progress", on_progress, "what, done, total")
-    if on_progress is not None:
-        with progress_to(on_progress):
-            return run_in(
-                scene,
-                surface,
-                passes=passes,
-                tolerance=tolerance,
-                step=step,
-                distance=distance,
-                wear_coefficient=wear_coefficient,
-                hardness=hardness,
-            )
+    options = _Options(
+        passes=passes,
+        tolerance=tolerance,
+        step=step,
+        distance=distance,
+        wear_coefficient=wear_coefficient,
+        hardness=hardness,
+    )
+    with nullcontext() if on_progress is None else progress_to(on_progress):
+        return _run_in(scene, surface, options)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Options:
+    """How a map is run in: arguments of `run_in`."""
+
+    passes: int
+    tolerance: float
+    step: float | None
+    distance: float
+    wear_coefficient: float
+    hardness: tuple[float, float] | None
+
+
+def _run_in(scene: Scene, surface: Surface | None, options: _Options) -> RunIn:
+    """Return `run_in` of the ``scene``, and at both ends of its hardness where that is a range."""
     validate.instance("scene", scene, Scene, "what lubfric.load_scene returned")
-    wear_of = _checked_wear(scene, distance, wear_coefficient, hardness)
-    passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
-    tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
+    wear_of = _checked_wear(scene, options.distance, options.wear_coefficient, options.hardness)
+    passes = validate.integer("passes", options.passes, minimum=1, maximum=10_000)
+    tolerance = validate.positive("tolerance", options.tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
     limit = scene.numerics.max_work or math.inf
     others = [pair for name, *pair in scene.at_ends() if name == "bodies.hardness"]
-    how: dict[str, Any] = {
-        "passes": passes,
-        "tolerance": tolerance,
-        "step": step,
-        "distance": distance,
-        "wear_coefficient": wear_coefficient,
-        "hardness": hardness,
-    }
     done = _Passes(heights=before.heights)
     wear = None
     ends: tuple[Surface, ...] = ()
     ended = ""
     try:
         with limited_work(limit):
-            for done in _passes(scene, before, _way(scene, before, step), passes, tolerance):
+            for done in _passes(scene, before, _way(scene, before, options.step), passes, tolerance):
                 pass
             dented = _run_in_map(scene, before, done)
             after = dented
             if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
                 after, wear, ended = worn_in(scene, dented, **wear_of)
             if not ended:
-                ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
+                ends = tuple(_run_in(other, before, options).surface for pair in others for other in pair)
     except WorkLimitError:
         after = _run_in_map(scene, before, done)
         dented = after

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from .._base import limited_work, unlimited_work, validate, with_default_errors
 from ..errors import InputError, WorkLimitError
-from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
+from ..estimate import most_work_of_estimate
 from ..models.shared import Prepared, Violation, refused, scene_of
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
@@ -122,7 +122,7 @@ def run_in_time(
     key = fingerprint_without_files(replace(model.prepared, scene=unlimited), section, times)
     if math.isinf(limit):
         seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
-        limit = max(LEAST_LIMIT, TIMES_ESTIMATE * seconds)
+        limit = most_work_of_estimate(seconds)
     with opened(checkpoint, RUN_CLASSES, "checkpoint") as store:
         progress, outputs, ended = _marched(
             model, start.state, plan, store, key, on_step, most_work=limit - begun.spent

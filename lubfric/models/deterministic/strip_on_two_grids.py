@@ -158,41 +158,53 @@ def solve_pair(
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
     if has_halved_cells:
         map_coarsening = halved_along_y(map_coarsening)
-    longer_cells = longer_than(surface, map_coarsening, is_moving=has_moving_roughness(scene))
-    longer: StripSolution
-    strip: StripSolution
     if has_moving_roughness(scene):
-        bodies = bodies_of(prepared, index, speed)
-        longer = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
-        target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
-        moving = solve_moving_strip(
-            scene,
-            bodies,
-            speed,
-            map_coarsening=map_coarsening,
-            start=longer,
-            target=target,
-            most_work=most_work,
-        )
-        strip = moving
-        if longer_cells[1] > map_coarsening[1]:
-            with may_stay_unsolved():  # then the change at rest is all that is known
-                longer = solve_moving_strip(
-                    scene,
-                    bodies,
-                    speed,
-                    map_coarsening=longer_cells,
-                    start=longer,
-                    effort=moving.effort,
-                    most_steps=compared_moments(moving),
-                )
+        longer, strip = _solve_moving_pair(prepared, speed, index, surface, map_coarsening, most_work)
     else:
         solve = partial(solve_strip, scene, surface, speed, memo=prepared.memo)
-        longer = solve(map_coarsening=longer_cells)
+        longer = solve(map_coarsening=longer_than(surface, map_coarsening))
         strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if find_slope else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(resolved=strip, longer=longer, is_mirrored=is_mirrored, has_halved_cells=has_halved_cells)
+
+
+def _solve_moving_pair(
+    prepared: Prepared,
+    speed: float,
+    index: int,
+    surface: Surface,
+    map_coarsening: tuple[int, int],
+    most_work: float,
+) -> tuple[StripSolution, StripSolution]:
+    """Return strip ``index``, whose roughness moves over the map ``surface``, on longer cells and on cells of
+    ``map_coarsening``. On longer cells it is followed over the first moments, where these are longer along y and that has
+    a solution; else it is only at rest, and the change at rest is all that is known."""
+    scene = prepared.scene
+    longer_cells = longer_than(surface, map_coarsening, is_moving=True)
+    bodies = bodies_of(prepared, index, speed)
+    longer: StripSolution = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
+    moving = solve_moving_strip(
+        scene,
+        bodies,
+        speed,
+        map_coarsening=map_coarsening,
+        start=longer,
+        target=sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance),
+        most_work=most_work,
+    )
+    if longer_cells[1] > map_coarsening[1]:
+        with may_stay_unsolved():
+            longer = solve_moving_strip(
+                scene,
+                bodies,
+                speed,
+                map_coarsening=longer_cells,
+                start=longer,
+                effort=moving.effort,
+                most_steps=compared_moments(moving),
+            )
+    return longer, moving
 
 
 def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:

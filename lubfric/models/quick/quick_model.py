@@ -138,32 +138,34 @@ class QuickSolution(SampleSolution):
         solution = self
         if of_thick_films > 0 and self.paper_solution is None and self._is_separated_at_first():
             solution = self._with_paper_solution()
-        completed = solution._with_strips_or_why(of_thick_films)
-        if isinstance(completed, QuickSolution):
-            return completed
-        return replace(solution._with_paper_solution(), why_by_equation=completed)
+        (with_strips, why_by_equation) = solution._with_strips(of_thick_films)
+        if with_strips is not None:
+            return with_strips
+        return replace(solution._with_paper_solution(), why_by_equation=why_by_equation)
 
-    def _with_strips_or_why(self, of_thick_films: float) -> QuickSolution | str:
-        """Return this solution with its strips on long cells; where they cannot answer, why load sharing does, as text.
+    def _with_strips(self, of_thick_films: float) -> tuple[QuickSolution | None, str]:
+        """Return this solution with its strips on long cells and ""; where they cannot answer, None and why load sharing
+        does, as text.
 
         ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is not.
         """
         is_thick = of_thick_films > 0 and self.paper_solution is not None
         if why := _why_not_calibrated(self.prepared.scene):
-            return why
+            return None, why
         if is_thick and self._is_separated_within(of_thick_films):
-            return THICK_FILM_NOTE
+            return None, THICK_FILM_NOTE
         try:
             with_strips = replace(self, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
         except (ConvergenceError, TooManyCellsError) as error:
-            return STRIPS_NOT_SOLVED.format(error)
+            return None, STRIPS_NOT_SOLVED.format(error)
         error_of_strips = max(with_strips.answer().model_error)
         if is_thick and self._is_separated_within(error_of_strips):
-            return THICK_FILM_NOTE
-        return with_strips
+            return None, THICK_FILM_NOTE
+        return with_strips, ""
 
     def _with_paper_solution(self) -> QuickSolution:
-        """Solve the joined strips by load sharing, if they are not solved."""
+        """Solve the joined strips by load sharing, if they are not solved: as many as the sampling error needs. The cells
+        remain: `lubfric.estimate.solve_to_tolerance`, which would shorten them, is of a package that uses this one."""
         if self.paper_solution is not None:
             return self
         model = PaperModel()
