@@ -116,6 +116,7 @@ def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum:
 
 
 def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
+    """Return ``value`` as a finite number above ``above``, in [minimum, maximum], and at least ``least`` in size unless it is 0."""
     largest = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     minimum = max(minimum, -largest)
     maximum = min(maximum, largest)

@@ -166,6 +166,7 @@ def _stretch_columns(
 
 
 def _face_rows(grid: Grid, t: ReynoldsTerms, J: np.ndarray) -> np.ndarray:
+    """Fill the rows of Reynolds' equation on the faces into ``J``; return their derivative by the film."""
     n = grid.n
     q = t.q
     mean, by_left, by_right = t.fluidity
@@ -191,6 +192,8 @@ def _face_rows(grid: Grid, t: ReynoldsTerms, J: np.ndarray) -> np.ndarray:
 
 
 def _closing_rows(grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndarray) -> tuple[float, float]:
+    """Fill the rows of the inlet, of the load and of the rupture into ``J``; return the derivatives of the first and of the
+    last one by the film."""
     n = grid.n
     q = t.q
     M = problem.M

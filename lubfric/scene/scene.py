@@ -334,6 +334,7 @@ def has_moving_roughness(scene: Scene) -> bool:
 
 
 def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tuple[str, Any, str]]:
+    """Yield each input of ``scene`` that the model of the resolved gap does not take: its key, its value and what is allowed."""
     for name, allowed, why in VALUES_OF_RESOLVED_GAP:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)

@@ -56,6 +56,7 @@ def read_x3p(path: Path) -> Surface:
 
 
 def _read(archive: zipfile.ZipFile, path: Path) -> Surface:
+    """Return the one layer of heights in an open X3P ``archive``. Raises `InputError` for anything else."""
     document = _member(archive, "main.xml", MOST_XML)
     root = _parse(document)
     _check_document(archive, root, document)

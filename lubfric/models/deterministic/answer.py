@@ -304,6 +304,7 @@ def _with_heat(scene: Scene, result: DeterministicResult) -> float:
 
 
 def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:
+    """Return what was modelled at a point, in words: its ``levels``, the division of the load, the ``heat`` and remarks."""
     by_film = BY_FILM.format(*(100 * change for change in levels.by_film))
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
@@ -441,8 +442,8 @@ def _words_of_levels(levels: Levels) -> str:
         strips += (
             f", with the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
         )
-    if levels.shortest:
-        strips += f" and of cells {2 * times} times as short on a shorter piece"
+        if levels.shortest:
+            strips += f" and of cells {2 * times} times as short on a shorter piece"
     if not levels.control_strips:
         return f"solved together with the contact on {strips}"
     return f"solved together with the contact: the difference from Eq. (8) on {strips}"

@@ -523,6 +523,8 @@ class GridTransfer:
 
 
 def _transfer(coarse: Problem, problem: Problem, result: DeterministicResult) -> GridTransfer:
+    """Return the way from the ``result`` on ``coarse`` cells to the finer ones of ``problem``: where these are among the coarse ones,
+    and their kind and fill there."""
     old = result.state
     (ny,) = problem.heights.shape[1:]
     (nx_old, ny_old) = coarse.heights.shape

@@ -14,7 +14,7 @@ from ...film import LineContact
 from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
-from ..shared import Memo, film_lubricant
+from ..shared import Memo, film_lubricant, ratio_of_changes
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble, share_moved_by_hardness
@@ -273,12 +273,12 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
     ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential surfaces
     under heavy loads the changes grow down to those cells.
     """
-    ratio = UNKNOWN_RATIO
-    endless = math.isinf(left)
-    if len(changes) > 1 and changes[-2] > 0:
-        times, most = (1.0, CHANGE_RATIOS[1]) if endless else (2.0, GROWING)
-        ratio = min(max(times * changes[-1] / changes[-2], CHANGE_RATIOS[0]), most)
-    return changes[-1] * (ratio / (1 - ratio) if endless else sum(ratio ** (k + 1) for k in range(int(left))))
+    before = changes[-2] if len(changes) > 1 else 0.0
+    if math.isinf(left):
+        ratio = ratio_of_changes(changes[-1], before, CHANGE_RATIOS, UNKNOWN_RATIO)
+        return changes[-1] * (ratio / (1 - ratio))
+    ratio = ratio_of_changes(2.0 * changes[-1], before, (CHANGE_RATIOS[0], GROWING), UNKNOWN_RATIO)
+    return changes[-1] * sum(ratio ** (k + 1) for k in range(int(left)))
 
 
 def changes_of(strips: Sequence[StripSolution]) -> list[float]:

@@ -402,6 +402,7 @@ def _root(point: Point, near: RootStart) -> Root:
 
 
 def _balance(point: Point, root: Root, response: Response) -> Balance:
+    """Return the balance of the last trial of ``root``, with the forces there and its report."""
     trial = root.payload
     scene = point.scene
     report = _report(
@@ -493,6 +494,7 @@ def _report(
     notes: tuple[str, ...],
     tolerance: float | None = None,
 ) -> Report:
+    """Return the report of a balance whose error of the volume has this ``history``."""
     residuals = {"volume": min(history), "load": 0.0}
     if film is not None:
         residuals["film"] = film.report.residual

@@ -262,6 +262,7 @@ class BalancedSample(SampleSolution):
 
     @cached_property
     def _is_too_coarse(self) -> bool:
+        """The answer of `is_too_coarse`, made once."""
         response = self.response
         sample = self.sample
         scene = self.prepared.scene

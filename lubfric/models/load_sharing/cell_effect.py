@@ -15,7 +15,7 @@ import numpy as np
 from ...contact import ContactState, HalfSpaceContact
 from ...samples import Sample
 from ...scene import budget
-from ..shared import Prepared, StandardError, add_errors, block_error, contact_on_piece
+from ..shared import Prepared, StandardError, add_errors, block_error, contact_on_piece, ratio_of_changes
 from .balance import Balance
 from .closure import gap_under
 from .point import Point
@@ -240,7 +240,7 @@ def remaining(changes: Sequence[float]) -> float:
     two changes (1/4 to 3/4; 1/2 if there is only one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
-    ratio = _change_ratio(last, before, SERIES_RATIOS)
+    ratio = ratio_of_changes(last, before, SERIES_RATIOS, UNKNOWN_CHANGE_RATIO)
     return last * ratio / (1 - ratio)
 
 
@@ -252,14 +252,7 @@ def predicted_next_change(changes: Sequence[float]) -> float:
     """
     d1 = abs(changes[0])
     d2 = abs(changes[1]) if len(changes) > 1 else 0.0
-    return max(d1 * _change_ratio(d1, d2, NEXT_RATIOS), LEAST_NEXT_RATIO * d2)
-
-
-def _change_ratio(last: float, before: float, bounds: tuple[float, float]) -> float:
-    """Return the ratio of the ``last`` change to the one ``before``, within ``bounds``; `UNKNOWN_CHANGE_RATIO` where that
-    is 0."""
-    (least, most) = bounds
-    return min(max(last / before, least), most) if before > 0 else UNKNOWN_CHANGE_RATIO
+    return max(d1 * ratio_of_changes(d1, d2, NEXT_RATIOS, UNKNOWN_CHANGE_RATIO), LEAST_NEXT_RATIO * d2)
 
 
 def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> float:

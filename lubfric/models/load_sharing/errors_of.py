@@ -358,6 +358,7 @@ def _area_needed(balanced: BalancedSample) -> float:
 
 
 def _notes(balanced: BalancedSample) -> tuple[str, ...]:
+    """Return why the sampling error is not known or above its tolerance, and whether few asperity contacts carry the load."""
     scene = balanced.prepared.scene
     error = balanced.sampling_error.value
     tolerance = scene.numerics.sampling_tolerance

@@ -108,6 +108,7 @@ def _shear(
     warm: float | None = None,
     stress: Callable[..., Any] | None = None,
 ) -> ShearForce:
+    """Return the shear force of ``film`` beside the asperity contacts of ``contact_state``."""
     with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, reported by `excess`
         return shear_force(
             film,

@@ -304,6 +304,8 @@ class QuickModel(Model):
     def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
+        """Return what a point takes on long cells, and on joined strips by load sharing where these may answer as well; no
+        work where another model answers in its place."""
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         if why_gap_not_resolved(scene):
             return replace(alone, seconds=0.0, has_answer=False, shared=())

@@ -108,6 +108,7 @@ from .statistics import (
     has_too_few_contacts,
     is_smooth_over_cells,
     means_of_blocks,
+    ratio_of_changes,
     strips_for_error,
     student,
 )

@@ -180,6 +180,13 @@ def half_width_of_error(error: float, freedom: float) -> float:
     return student(freedom) * error if error else error
 
 
+def ratio_of_changes(last: float, before: float, bounds: tuple[float, float], unknown: float) -> float:
+    """Return the ratio with which the changes from grid to grid go on: that of the ``last`` one to the one ``before``,
+    within ``bounds``; ``unknown`` where there is none before, or it is 0."""
+    (least, most) = bounds
+    return min(max(last / before, least), most) if before > 0 else unknown
+
+
 def is_smooth_over_cells(heights: FloatArray) -> bool:
     """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""
