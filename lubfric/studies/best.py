@@ -40,8 +40,8 @@ COMPARED_KEYS = frozenset(
 )
 
 # Correlation of the model-form errors of two designs that differ by `COMPARED_DISTANCE` at most [-]. Measured on pairs of random
-# contacts at rest and rolling (`python -m verification.campaigns.calibration pairs`): with it 96 % of the differences at rest, and
-# all of those rolling, are within their 95 % error.
+# contacts at rest and rolling (`python -m verification.campaigns.calibration pairs`): with it 95 to 100 % of the differences, by
+# motion and model, are within their 95 % error.
 CORRELATION_OF_DESIGNS = 0.75
 
 # Distance of two designs, the sum of the changes of ln of their keys, up to which that holds [-]: a factor of 2, the largest that
