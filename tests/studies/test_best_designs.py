@@ -193,6 +193,23 @@ def test_similar_designs_share_most_of_the_model_form_error(vary, model, is_alik
     assert (not one.rivals) == is_alike
 
 
+@pytest.mark.parametrize("part", ["model_error", "numerical_error"])
+@pytest.mark.parametrize("towards, count", [(0.025, 1), (0.001, 0)])
+def test_errors_count_by_the_sides_that_face_each_other(part, towards, count):
+    """f of 0.05 and 0.08: with 0.025 above the first and below the second, the difference is uncertain by 0.035, otherwise by 0.001."""
+    away = 0.026 - towards
+    f = np.array([[0.05], [0.08]])
+    result = made(f, 0.0 * f, vary={"bodies.material": MATERIALS}, speeds=[0.1])
+    sides = {
+        "interval_low": f - [[away], [towards]],
+        "interval_high": f + [[towards], [away]],
+        "model_error": 0.0 * f,
+        part: 0.025 / f,
+    }
+    (one,) = replace(result, columns=result.columns | sides).best()
+    assert len(one.rivals) == count
+
+
 def test_a_range_of_an_input_that_is_varied_is_not_shared():
     vary = {"bodies.boundary_friction_coefficient": [[0.09, 0.15], [0.1, 0.16]]}
     (one,) = with_shared_range(vary, [0.05, 0.08], 0.4).best()
