@@ -7,12 +7,13 @@ t/sqrt(U) is interpolated over 1/sqrt(U). Two known trends of the share are remo
 (1 - s)/s of film to asperity load grows about in proportion to the speed, and at lift-off U_0 the share ends like that
 of one Hertz asperity, as (1 - U/U_0)^(3/2). The remainder, ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is
 interpolated over U^0.6, which grows about as the film does, with the slopes that are known at the points. All
-interpolations are cubic splines. Other cubics, and where the points are far apart a monotone cubic and a line through f
+interpolations are cubic splines. Both parts go through all points, also those where they carry hardly any load. Other cubics, and where the points are far apart a monotone cubic and a line through f
 itself, are compared with them to estimate the error.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -83,6 +84,9 @@ LEAST_LOAD_RATIO = 2e-3
 
 # Smallest divisor of an error relative to f. A choice, near the smallest number.
 LEAST_POSITIVE = 1e-300
+
+# Part of f that parts may leave by rounding [-]. A choice, between rounding and what a picture shows.
+LEFT_BY_ROUNDING = 1e-9
 
 # Film load ratio below which the film counts as carrying nothing. A choice: any number between rounding and a share
 # does.
@@ -290,6 +294,31 @@ class Interpolant:
 
     def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the asperity contacts."""
+        return self._through_points(self._by_load_ratio, self.samples.boundary, speed, smooth=smooth)
+
+    def film(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
+        """Return the part of f from the film."""
+        return self._through_points(self._by_traction, self.samples.film, speed, smooth=smooth)
+
+    def _through_points(
+        self, part: Callable[..., np.ndarray], solved: np.ndarray, speed: np.ndarray, *, smooth: bool
+    ) -> np.ndarray:
+        """Return a ``part`` of f at ``speed``, through what is ``solved`` of it.
+
+        A point at which a part carries hardly any load is not used for its interpolation (`LITTLE`, `LEAST_LOAD_RATIO`). A monotone
+        cubic over ln U joins what the interpolation leaves at the points.
+        """
+        s = self.samples
+        value = part(speed, smooth=smooth)
+        left = solved - part(s.speed, smooth=smooth)
+        is_seen = np.isfinite(left) & (np.abs(left) > LEFT_BY_ROUNDING * np.abs(s.boundary + s.film))
+        if not is_seen.any():
+            return value
+        inside = np.clip(speed, s.speed[0], s.speed[-1])
+        return value + _cubic(np.log(s.speed), np.where(is_seen, left, 0.0), np.log(inside), smooth=False)
+
+    def _by_load_ratio(self, speed: np.ndarray, *, smooth: bool) -> np.ndarray:
+        """Return the part of f from the asperity contacts by the interpolated asperity load ratio."""
         s = self.samples
         k = self.samples.contacts
         if k == 0:
@@ -297,8 +326,8 @@ class Interpolant:
         of_share = _cubic(np.log(s.speed[:k]), s.boundary[:k] / s.share[:k], np.log(speed), smooth=False)
         return of_share * self.share(speed, smooth=smooth)
 
-    def film(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
-        """Return the part of f from the film."""
+    def _by_traction(self, speed: np.ndarray, *, smooth: bool) -> np.ndarray:
+        """Return the part of f from the film by its interpolated traction coefficient."""
         with np.errstate(invalid="ignore"):  # an overflow where the film carries nothing: not known
             return self.traction(speed, smooth=smooth) * (1.0 - self.share(speed, smooth=smooth))
 

@@ -106,3 +106,25 @@ def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, si
     if sign > 0:
         assert stated in minimum_in_words(curve)
     assert {abs(float(text)) for text in re.findall(r"-?\d[\d.]*", minimum_in_words(curve))} <= {0.05, 2.0, 5.0}
+
+
+def test_the_curve_goes_through_points_whose_film_carries_hardly_any_load():
+    """As those of a slow needle roller, whose flanks of roughness turn the force of the film round."""
+    film_load = np.array([0.7, 2.0, 9.0, 38.0, 171.0])
+    contact_load = 400.0 - film_load
+    shear_force = np.array([-0.575, -0.485, -0.068, 1.37, 6.83])
+    boundary_force = 0.12 * contact_load
+    numbers = {
+        "speed": np.array([0.1, 0.266, 0.707, 1.88, 5.0]),
+        "coefficient": (boundary_force + shear_force) / 400.0,
+        "contact_load": contact_load,
+        "film_load": film_load,
+        "boundary_force": boundary_force,
+        "film_to_roughness_ratio": np.full(5, 0.7),
+        "clearance": np.full(5, NAN),
+        "steepness": np.full(5, NAN),
+    }
+    curve = through(numbers)
+    np.testing.assert_allclose(curve.at(numbers["speed"]), numbers["coefficient"], rtol=1e-12)
+    between_points = curve.at(np.geomspace(0.1, 0.266, 9))
+    assert np.all((between_points >= 0.11817 * (1 - 2e-3)) & (between_points <= 0.1184 * (1 + 2e-3)))
