@@ -2,6 +2,7 @@
 
 import math
 import re
+import tomllib
 from dataclasses import replace
 from functools import lru_cache
 
@@ -270,14 +271,18 @@ def test_a_hardness_that_moves_little_load_changes_f_by_no_more_than_estimated(s
 
 
 @pytest.mark.parametrize("slip", [pytest.param(0.5, marks=pytest.mark.slow), 2.0])
-def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(slip):
-    """Long cells would have bounds twice as wide there, and in rolling take seconds."""
+def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(monkeypatch, slip):
+    """Long cells would have bounds twice as wide there, and in rolling take seconds: they are not solved."""
+    solves = []
     scene = PAPER.with_(motion={"slide_roll_ratio": slip}, numerics={"model": "quick"} | LOOSE)
-    quick_result, paper = (lubfric.friction(scene, 0.3, model=model) for model in ("quick", "paper"))
+    with monkeypatch.context() as patch:
+        patch.setattr("lubfric.models.quick.quick_model.solve_on_long_cells", lambda *args: solves.append(args))
+        quick_result, paper = (lubfric.friction(scene, 0.3, model=model) for model in ("quick", "paper"))
+    assert not solves
     assert quick_result.coefficient == paper.coefficient
     assert quick_result.uncertainty.model_sides == paper.uncertainty.model_sides
     assert 0 < max(paper.uncertainty.model_sides) < 0.2
-    assert "the film is thick" in quick_result.uncertainty.text and quick_result.seconds < 5
+    assert "the film is thick" in quick_result.uncertainty.text
     thinner = point(LOOSE_PAPER, 0.05, "quick")
     assert "the film is thick" not in thinner.uncertainty.text and "long cells" in thinner.decision.text
 
@@ -416,9 +421,22 @@ def test_the_covariance_of_the_fit_is_the_scatter_of_its_coefficients():
     assert np.diag(scatter) == pytest.approx(np.diag(fits[0].covariance), rel=0.3)
 
 
+def leaves(tree, name=""):
+    """Yield the name and the value of each number and text in a tree of tables and lists."""
+    if isinstance(tree, (dict, list)):
+        for key, value in tree.items() if isinstance(tree, dict) else enumerate(tree):
+            yield from leaves(value, f"{name}.{key}")
+    else:
+        yield name, tree
+
+
 def test_calibration_is_the_fit_to_its_tables():
-    """The file of lubfric is what the command writes from the tables, which have every kind of case."""
-    assert fit.HOME.read_text(encoding="utf-8") == fit.text_of()
+    """The file of lubfric is what the command writes from the tables, which have every kind of case; other versions of
+    SciPy may end their search elsewhere by little."""
+    (kept, made) = (dict(leaves(tomllib.loads(text))) for text in (fit.HOME.read_text(encoding="utf-8"), fit.text_of()))
+    assert kept.keys() == made.keys() and len(kept) > 10
+    for name, value in kept.items():
+        assert value == (made[name] if isinstance(value, str) else pytest.approx(made[name], rel=1e-3)), name
     for motion in fit.MOTIONS:
         rows = list(fit.usable(motion))
         assert {row["fluid"] for row in rows} == {"newtonian", "eyring", "limit", "low-limit"}

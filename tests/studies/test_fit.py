@@ -346,7 +346,7 @@ def test_headings_of_any_length_are_read_in_no_time(tmp_path, heading):
     before = time.process_time()
     with pytest.raises(lubfric.InputError):
         lubfric.read_measured(tmp_path / "m.csv", speed="U [m/s]x", coefficient="mu")
-    assert time.process_time() - before < 0.5
+    assert (time.process_time() - before) / slowness() < 0.5
 
 
 @pytest.mark.parametrize(
