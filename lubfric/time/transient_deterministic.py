@@ -22,6 +22,7 @@ from ..models.deterministic import (
     KRYLOV_IN_A_STEP,
     TOUCHING,
     Iterate,
+    MapCoarsening,
     Problem,
     State,
     TimeHistory,
@@ -310,7 +311,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
         )
     if not maps:  # smooth
         surface = replace(surface, heights=surface.heights[:, :1], mask=None)
-        map_coarsening = (map_coarsening[0], 1)
+        map_coarsening = MapCoarsening((map_coarsening[0], 1))
     speed = transient.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(transient.duration)
     line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / transient.duration)

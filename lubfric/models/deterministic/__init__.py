@@ -42,6 +42,7 @@ from .solve import dry_contact, solve_point
 from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admissible, evaluated, residuals
 from .strip import UNKNOWN_SLOPE, StripSolution, change_by_flow, changes_of, error_by_cells, solve_strip, work_of_steps
 from .strip_on_two_grids import (
+    MapCoarsening,
     StripOnTwoGrids,
     numbers_of_strip,
     sample_coarsening_of,

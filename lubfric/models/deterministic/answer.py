@@ -54,7 +54,7 @@ from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip, summit_control
 from .strip import StripSolution, change_by_flow, solve_strip
-from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, patch_coarsening_to_look_at, sample_coarsening_of
+from .strip_on_two_grids import SampleCoarsening, StripOnTwoGrids, patch_coarsening_to_look_at, sample_coarsening_of
 from .time_and_place import PLACE_BLOCK, TIME_BLOCK, least_blocks
 
 BY_PLACES = "the scatter of the difference between the models from strip to strip"
@@ -226,9 +226,9 @@ def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> C
     if sample.refines_in_place:
         surface = map_of_strip(prepared, 0)
         (along, across) = (round(long / short) for long, short in zip(finest.problem.spacing, surface.spacing))
-        coarsening = patch_coarsening_to_look_at(scene, sample, (along, across))
-        if coarsening != (along, across):
-            finest = solve_strip(scene, surface, speed, map_coarsening=coarsening, start=finest, memo=prepared.memo)
+        shorter = patch_coarsening_to_look_at(scene, sample, (along, across))
+        if shorter != (along, across):
+            finest = solve_strip(scene, surface, speed, map_coarsening=shorter, start=finest, memo=prepared.memo)
         return fields_of(finest, sample.piece_on_cells_in_words(finest.problem.spacing))
     coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)
     length = pictured_length(scene, sample)
@@ -357,7 +357,7 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     sample = prepared.sample
     sample_coarsening = sample_coarsening_of(scene, sample)
     if pair.has_halved_cells:
-        sample_coarsening = halved_along_y(sample_coarsening)
+        sample_coarsening = SampleCoarsening((sample_coarsening[0], sample_coarsening[1] // 2))
     along = sample.cells.coarsening[0] * sample_coarsening[0]
     if along == 1:  # cells of the map, on which most of the error depends
         finer = f"along x of at most {worded(0.5 * sample.cells.native_spacing[0], 'm')} and numerics.grid = 'given'"

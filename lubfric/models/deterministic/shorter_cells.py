@@ -40,6 +40,7 @@ from .strip import (
     solve_strip,
 )
 from .strip_on_two_grids import (
+    MapCoarsening,
     StripOnTwoGrids,
     longer_than,
     numbers_of_strip,
@@ -424,7 +425,7 @@ def _refined(
     else:
         coarsening = tuple(m * n for m, n in zip(map_coarsening, sample.cells.coarsening))
         last = max(1, coarsening[0] // times), max(1, coarsening[1] // times)
-        map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
+        map_coarsening = MapCoarsening((coarsening[0] // last[0], coarsening[1] // last[1]))
         surface = map_of_contact(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
         check_number_of_cells(surface, line_contact_of(scene, speed), (1, 1))
         longer: StripSolution | None = None
@@ -434,7 +435,7 @@ def _refined(
         strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
         ladder = [strip if longer is None else longer, strip]
     while map_coarsening != (1, 1):
-        map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
+        map_coarsening = MapCoarsening((max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)))
         ladder.append(
             solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import NewType
 
 from ..._base import may_stay_unsolved
 from ...quantities import NUMBERS
@@ -35,6 +36,11 @@ MOVING_SAMPLE = 0.6
 
 # Cells in a correlation length along x, at least, where roughness moves (docs/tolerances.md).
 PER_LENGTH_IN_MOTION = 4.0
+
+# Lengths of cells along x and y: in cells of the sample, of the map of a strip, and of the scene.
+SampleCoarsening = NewType("SampleCoarsening", tuple[int, int])
+MapCoarsening = NewType("MapCoarsening", tuple[int, int])
+NativeCoarsening = NewType("NativeCoarsening", tuple[int, int])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,13 +77,13 @@ class StripOnTwoGrids:
         return self.resolved.change_from(self.longer)
 
 
-def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
+def sample_coarsening_of(scene: Scene, sample: Sample) -> SampleCoarsening:
     """Return the length of the cells of the deterministic model in those of the ``sample``, along x and y: 2, or 1
     where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH` in half the
     Hertz strip, of moving roughness more than `longest_cell_in_motion`, or does not divide the rows of a strip. Where roughness moves,
     ``numerics.grid = "given"`` takes those of the scene."""
     if has_moving_roughness(scene) and scene.numerics.grid == "given":
-        return 1, 1
+        return SampleCoarsening((1, 1))
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
     is_moving = has_moving_roughness(scene)
@@ -86,19 +92,20 @@ def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
         longest = min(longest, longest_cell_in_motion(scene, sample.sq))
     is_doubled_along_x = longest >= 2 * dx * (1 - 1e-9)
     is_doubled_along_y = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
-    return 2 if is_doubled_along_x else 1, 2 if is_doubled_along_y else 1
+    return SampleCoarsening((2 if is_doubled_along_x else 1, 2 if is_doubled_along_y else 1))
 
 
-def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
+def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface, MapCoarsening]:
     """Return the map of strip ``index``, and the length of the cells of the deterministic model in those of this map.
     The map of a patch at rest is all of it, on its own cells (`Sample.refinement`)."""
     sample = prepared.sample
-    is_moving = has_moving_roughness(prepared.scene)
-    take = sample_coarsening_of if is_moving else coarsening_at_rest
-    return map_of_strip(prepared, index), take(prepared.scene, sample)
+    surface = map_of_strip(prepared, index)
+    if has_moving_roughness(prepared.scene):  # the map is on the cells of the sample
+        return surface, MapCoarsening(sample_coarsening_of(prepared.scene, sample))
+    return surface, coarsening_at_rest(prepared.scene, sample)
 
 
-def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int, int]) -> tuple[int, int]:
+def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int, int]) -> NativeCoarsening:
     """Return the length, in native cells, of cells that show a patch at rest: those of length ``solved`` that f is found on, or the
     longest shorter ones that show the Hertz strip (`Cells.longest_to_look_at`) and divide the rows of the map; else native ones."""
     (dx, dy) = sample.cells.native_spacing
@@ -106,36 +113,39 @@ def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int,
     rows = sample.rows * sample.cells.coarsening[1]
     along = min(solved[0], max(1, int(longest / dx)))
     most = min(solved[1], max(1, int(longest / dy)))
-    return along, max(divisor for divisor in range(1, most + 1) if rows % divisor == 0)
+    return NativeCoarsening((along, max(divisor for divisor in range(1, most + 1) if rows % divisor == 0)))
 
 
-def coarsening_at_rest(scene: Scene, sample: Sample) -> tuple[int, int]:
+def coarsening_at_rest(scene: Scene, sample: Sample) -> MapCoarsening:
     """Return the length of the cells of the deterministic model where roughness rests, in those of the map of a strip: of a patch,
     in native ones (`Sample.refinement`)."""
     (sx, sy) = sample_coarsening_of(scene, sample)
     (rx, ry) = sample.refinement
-    return sx * rx, sy * ry
+    return MapCoarsening((sx * rx, sy * ry))
 
 
-def shortened(scene: Scene, sample: Sample, coarsening: tuple[int, int]) -> tuple[int, int]:
+def shortened(scene: Scene, sample: Sample, coarsening: MapCoarsening) -> MapCoarsening:
     """Return half the ``coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the same along an
     axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests native cells."""
     (fx, fy) = coarsening
-    halves = max(1, fx // 2), max(1, fy // 2)
+    halves = MapCoarsening((max(1, fx // 2), max(1, fy // 2)))
     if scene.numerics.grid == "given":
         return halves
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.native_spacing
     along = fx * dx / min(lx / PER_LENGTH, scene.bodies.half_width / PER_HALF_WIDTH)
     across = fy * dy / (ly / PER_LENGTH)
-    return fx if along <= MUCH_SHORTER * across else halves[0], fy if across <= MUCH_SHORTER * along else halves[1]
+    return MapCoarsening(
+        (fx if along <= MUCH_SHORTER * across else halves[0], fy if across <= MUCH_SHORTER * along else halves[1])
+    )
 
 
-def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, is_moving: bool = False) -> tuple[int, int]:
+def longer_than(surface: Surface, map_coarsening: MapCoarsening, *, is_moving: bool = False) -> MapCoarsening:
     """Return twice ``map_coarsening``; the same along y where twice that does not divide the map ``surface``, and along
     x where roughness ``is_moving``."""
     along = map_coarsening[0] if is_moving else 2 * map_coarsening[0]
-    return along, map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
+    across = map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
+    return MapCoarsening((along, across))
 
 
 def solve_pair(
@@ -174,7 +184,7 @@ def _solve_moving_pair(
     speed: float,
     index: int,
     surface: Surface,
-    map_coarsening: tuple[int, int],
+    map_coarsening: MapCoarsening,
     most_work: float,
 ) -> tuple[StripSolution, StripSolution]:
     """Return strip ``index``, whose roughness moves over the map ``surface``, on longer cells and on cells of
@@ -207,9 +217,9 @@ def _solve_moving_pair(
     return longer, moving
 
 
-def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:
+def halved_along_y(coarsening: MapCoarsening) -> MapCoarsening:
     """Return ``coarsening``, which is even along y, for cells half as long there."""
-    return coarsening[0], coarsening[1] // 2
+    return MapCoarsening((coarsening[0], coarsening[1] // 2))
 
 
 def on_halved_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids) -> StripOnTwoGrids:
