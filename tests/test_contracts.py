@@ -17,6 +17,7 @@ from lubfric.estimate.solve_to_tolerance import solve_to_tolerance
 from lubfric.estimate.work_of_point import estimated_work_of_point
 from lubfric.models import (
     MODELS,
+    AnswerErrors,
     DeterministicModel,
     Model,
     ModelAnswer,
@@ -206,7 +207,8 @@ class TestModel:
         completed = solution.corrected().completed()
         assert completed.completed() is completed and (completed.may_suffice() or not completed.why_sufficient())
         answer = completed.answer()
-        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.value > 0
+        assert 0 < answer.numbers["coefficient"] < 0.1
+        assert answer.errors.numerical > 0 and answer.errors.sampling_error.value > 0
         assert answer.report.converged
         assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape
         again = model.solve(prepared, prepared.sample, count, 0.03, start=solution).corrected().completed()
@@ -270,10 +272,12 @@ class Highest(SampleSolution):
         numbers = {"coefficient": f, "speed": self.speed, "contact_load": load, "film_load": 0.0}
         return ModelAnswer(
             numbers=numbers | {"boundary_force": f * load, "rolling_resistance": 1.0},
-            errors={"rolling_resistance": 0.0},
-            numerical=0.0,
-            sampling_error=self.sampling_error,
-            model_error=(0.5, 0.5),
+            errors=AnswerErrors(
+                numerical=0.0,
+                sampling_error=self.sampling_error,
+                model_error=(0.5, 0.5),
+                of_numbers={"rolling_resistance": 0.0},
+            ),
             report=Report("highest summit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0, residuals={}),
             decision=Decision(film_in_words="none", contact_in_words="none", tolerance=0.01, strips=self.count),
             length=self.count * self.sample.strip_length,

@@ -58,7 +58,7 @@ def test_another_quantity_that_depends_on_the_area_has_its_error(monkeypatch):
     home = "lubfric.models.load_sharing.errors_of.depending_on"
     monkeypatch.setattr(home, lambda error: (*q.depending_on(error), *["another area"] * (error == "area")))
     prepared = lubfric.prepare(lubfric.load_scene("paper"))
-    errors = PaperModel().solve(prepared, prepared.sample, 2, 0.0).answer().errors
+    errors = PaperModel().solve(prepared, prepared.sample, 2, 0.0).answer().errors.of_numbers
     assert errors["another area"] == errors["real_contact_area_fraction"] > 0
     assert errors["real_contact_area"] > 0
 

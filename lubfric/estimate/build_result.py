@@ -52,8 +52,8 @@ def result_of(
     uncertainty = uncertainty_of(prepared, answer)
     loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
-    errors = answer.errors | {"power_loss": loss.error}
-    sampling = answer.sampling_error.value
+    errors = answer.errors.of_numbers | {"power_loss": loss.error}
+    sampling = answer.errors.sampling_error.value
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     of_answer = [each for each in answer.violations if each.assumption != Assumption.LONG_SAMPLE or not is_sampled_well]
     violations = (
@@ -83,7 +83,7 @@ def result_of(
         **numbers,
         report=replace(report, notes=notes),
         uncertainty=uncertainty,
-        errors=number_errors_of(numbers, errors, answer.why_no_error, answer.reasons),
+        errors=number_errors_of(numbers, errors, answer.errors.why_not_known, answer.errors.reasons),
         decision=decision,
         power_loss_interval=loss.interval,
         validity=violations,
@@ -102,10 +102,10 @@ def _violations_by_model_error(scene: Scene, answer: ModelAnswer) -> Iterator[Vi
     if answer.accepts_model_error:
         return
     yield from violations_by_model_error(
-        answer.error_of_model_alone,
+        answer.errors.of_model_alone,
         tolerance=scene.numerics.model_tolerance,
         f=answer.numbers["coefficient"],
-        parts=[part for part in answer.parts_of_model if not part.is_of_input],
+        parts=[part for part in answer.errors.parts_of_model if not part.is_of_input],
     )
 
 
@@ -126,9 +126,9 @@ def _power_loss(
         speed=speed,
         coefficient=numbers["coefficient"],
         interval=uncertainty.interval,
-        coefficient_error=answer.errors.get("coefficient", math.nan),
+        coefficient_error=answer.errors.of_numbers.get("coefficient", math.nan),
         resistance=numbers["rolling_resistance"],
-        resistance_error=answer.errors.get("rolling_resistance", math.nan),
+        resistance_error=answer.errors.of_numbers.get("rolling_resistance", math.nan),
         resistance_model_error=model.rolling_error(numbers["lambda_ratio"]),
     )
 

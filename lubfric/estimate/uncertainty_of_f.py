@@ -32,31 +32,32 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     """Return the uncertainty budget of f of an ``answer``, the ranges of inputs included."""
     scene = prepared.scene
     f = answer.numbers["coefficient"]
-    sampling_error = answer.sampling_error
-    numerical = min(answer.numerical, _largest_change(scene, answer))
+    errors = answer.errors
+    sampling_error = errors.sampling_error
+    numerical = min(errors.numerical, _largest_change(scene, answer))
     has_sampling_error = math.isfinite(sampling_error.value)
     counted = sampling_error if has_sampling_error else replace(sampling_error, value=0.0)
-    is_above = answer.numerical > scene.numerics.tolerance  # then a note has the same advice
+    is_above = errors.numerical > scene.numerics.tolerance  # then a note has the same advice
     of_solve = Uncertainty(
         coefficient=f,
         numerical=numerical,
         sampling=sampling_error.value,
-        interval=interval(f, numerical=numerical, sampling_error=counted, model_error=answer.model_error),
+        interval=interval(f, numerical=numerical, sampling_error=counted, model_error=errors.model_error),
         line_scatter=sampling_error.value * math.sqrt(answer.length / scene.bodies.width),
         effective_contacts=answer.effective_contacts,
         length=answer.length,
         freedom=float(sampling_error.freedom),
         tolerance=scene.numerics.sampling_tolerance,
-        area_needed=answer.area_needed,
-        model=max(answer.model_error),
-        model_sides=answer.model_error,
-        by_limit=answer.by_limit,
-        largest_in_model=largest_of(answer.parts_of_model),
+        area_needed=errors.area_needed,
+        model=max(errors.model_error),
+        model_sides=errors.model_error,
+        by_limit=errors.by_limit,
+        largest_in_model=largest_of(errors.parts_of_model),
         narrows_numerical=f"{answer.recommendation} to reduce it" if is_above else answer.narrows_numerical,
         narrows_sampling=LARGER_MAP
         if prepared.sample.available_strips <= answer.decision.strips
         else SMALLER_SAMPLING_TOLERANCE,
-        notes=answer.notes,
+        notes=errors.notes,
     )
     uncertainty = with_inputs_not_given(of_solve, answer.not_given)
     if scene.ranges:

@@ -10,7 +10,7 @@ have in common: the scene made ready, heat, limits of validity, statistics. `pre
 from .contract import AUTO, Model, SampleSolution
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
-from .model_answer import ContactFields, ModelAnswer, ModelDetails
+from .model_answer import AnswerErrors, ContactFields, ModelAnswer, ModelDetails
 from .prepare import prepare, prepare_on_maps, prepare_on_sample, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
 from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to

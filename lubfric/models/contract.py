@@ -48,12 +48,12 @@ class SampleSolution(ABC):
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough.
 
-        By default they are those that `ModelAnswer.sampling_error` needs, of the `answer` before `completed`. A model whose
+        By default they are those that `AnswerErrors.sampling_error` needs, of the `answer` before `completed`. A model whose
         `answer` takes work or needs `completed`, or that decides by another error, says it here.
         """
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         return strips_for_error(
-            self.answer().sampling_error,
+            self.answer().errors.sampling_error,
             tolerance,
             count=self.count,
             first=self.sample.first_strips,

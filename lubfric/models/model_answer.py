@@ -95,6 +95,43 @@ class AtInputs:
 
 
 @dataclass(frozen=True, kw_only=True)
+class AnswerErrors:
+    """The relative errors of f by their source, and those of the other numbers of a point.
+
+    Attributes
+    ----------
+    numerical : of f by solver and grids, an estimate that the interval takes as a bound at 95 %
+    sampling_error : standard error of f because the sample is finite; an error that is NaN is not known
+    model_error : of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
+    by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
+    parts_of_model : what the model-form error consists of, each with its cause; (): not known
+    of_numbers : of the numbers, by name: the standard error of the sample together with the numerical error, which is that
+        of the number where it is known, else ``numerical``; without the model-form error
+    why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor 0,
+        and of some by name
+    notes : remarks on these errors
+    area_needed : area that the sampling error needs, over that of the sample (`lubfric.estimate.Uncertainty`)
+    """
+
+    numerical: float
+    sampling_error: StandardError
+    model_error: tuple[float, float]
+    by_limit: float = 0.0
+    parts_of_model: tuple[ModelErrorPart, ...] = ()
+    of_numbers: dict[str, float] = field(default_factory=dict)
+    why_not_known: str = "not known"
+    reasons: dict[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    area_needed: float = 1.0
+
+    @property
+    def of_model_alone(self) -> float:
+        """Relative error of f by the model at 95 %, the larger of both sides, without what an unknown input adds."""
+        alone = [part for part in self.parts_of_model if not part.is_of_input]
+        return error_of_parts(alone) if alone else max(self.model_error)
+
+
+@dataclass(frozen=True, kw_only=True)
 class ModelAnswer:
     """What a model says of one operating point on its sample: numbers, their errors, warnings, fields.
 
@@ -102,22 +139,13 @@ class ModelAnswer:
     ----------
     numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``, ``speed`` and, where f_b
         has a range, ``contact_load``; others that are omitted are NaN
-    numerical : relative error of f by solver and grids, an estimate that the interval takes as a bound at 95 %
-    sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
-    model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
-    by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
-    parts_of_model : what the model-form error consists of, each with its cause; (): not known
+    errors : of f and of the other numbers
     accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
     narrows_numerical : what narrows ``numerical`` where it is within the tolerance, as text
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
-        (section.key, one of `lubfric.scene.inputs_not_given`); no part of ``model_error``
-    errors : relative errors of the numbers, by name: the standard error of the sample together with the numerical error,
-        which is that of the number where it is known, else ``numerical``; without the model-form error
-    why_no_error, reasons : why an error is not known: of those not in ``errors`` whose number is neither NaN nor 0, and of
-        some by name
-    length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
-    notes : remarks on these errors
+        (section.key, one of `lubfric.scene.inputs_not_given`); no part of the model-form error
+    length, effective_contacts : of the sample (`lubfric.estimate.Uncertainty`)
     report, decision : of the solve; what was modelled
     violations : limits of the model that are exceeded
     recommendation : what reduces the numerical error where it exceeds the tolerance
@@ -130,24 +158,15 @@ class ModelAnswer:
     """
 
     numbers: dict[str, float]
-    numerical: float
-    sampling_error: StandardError
-    model_error: tuple[float, float]
+    errors: AnswerErrors
     report: Report
     decision: Decision
-    by_limit: float = 0.0
-    parts_of_model: tuple[ModelErrorPart, ...] = ()
     accepts_model_error: bool = False
     narrows_numerical: str = REDUCED_BY_TOLERANCE
     most_rolling_ratio: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
-    errors: dict[str, float] = field(default_factory=dict)
-    why_no_error: str = "not known"
-    reasons: dict[str, str] = field(default_factory=dict)
     length: float = math.nan
     effective_contacts: float = math.nan
-    area_needed: float = 1.0
-    notes: tuple[str, ...] = ()
     violations: tuple[Violation, ...] = ()
     recommendation: str = "set a smaller numerics.tolerance"
     fields: ContactFields | None = None
@@ -155,9 +174,3 @@ class ModelAnswer:
     details: ModelDetails | None = None
     at_inputs: Callable[[], AtInputs] | None = None
     change_without_solve: Callable[[str, int, Scene], float | None] = lambda name, number, end: None
-
-    @property
-    def error_of_model_alone(self) -> float:
-        """Relative error of f by the model at 95 %, the larger of both sides, without what an unknown input adds."""
-        alone = [part for part in self.parts_of_model if not part.is_of_input]
-        return error_of_parts(alone) if alone else max(self.model_error)

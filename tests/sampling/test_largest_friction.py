@@ -89,8 +89,9 @@ def test_no_interval_reaches_beyond_f_b_where_asperities_carry_nearly_all(model)
 def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     """At the stress that the oil and f_b allow, and at the f whose sliding part is 0."""
     prepared = lubfric.prepare(PAPER)
-    answer = replace(PaperModel().solve(prepared, prepared.sample, 1, 0.03).answer(), numerical=numerical)
-    errors = {"sampling_error": answer.sampling_error, "model_error": answer.model_error}
+    solved = PaperModel().solve(prepared, prepared.sample, 1, 0.03).answer()
+    answer = replace(solved, errors=replace(solved.errors, numerical=numerical))
+    errors = {"sampling_error": answer.errors.sampling_error, "model_error": answer.errors.model_error}
     low, high = interval(answer.numbers["coefficient"], numerical=numerical, **errors)
     known = uncertainty_of(prepared, answer)
     assert (known.interval[0] > low) == ("would drive the sliding" in known.text) == is_cut

@@ -13,7 +13,7 @@ from ...quantities import depending_on
 from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
 from ...units import worded
-from ..model_answer import AtInputs, ContactFields, ModelAnswer
+from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
     GIVE_LIMIT,
@@ -157,24 +157,26 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     return ModelAnswer(
         numbers=numbers,
-        numerical=levels.numerical,
-        sampling_error=sampling_error,
-        model_error=sides_of_parts(parts_of_model),
-        by_limit=max(by_limit),
-        parts_of_model=parts_of_model,
+        errors=AnswerErrors(
+            numerical=levels.numerical,
+            sampling_error=sampling_error,
+            model_error=sides_of_parts(parts_of_model),
+            by_limit=max(by_limit),
+            parts_of_model=parts_of_model,
+            of_numbers=errors | dict.fromkeys(reasons, math.nan),
+            why_not_known=FEW_STRIPS,
+            reasons=reasons,
+            notes=(
+                *_sample_notes(prepared, sampling_error, levels),
+                *filter(None, [limit_in_words(by_limit), of_heat]),
+                *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
+                *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
+            ),
+        ),
         not_given={key: by_input_not_given[key] for key in inputs_not_given(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
-        errors=errors | dict.fromkeys(reasons, math.nan),
-        why_no_error=FEW_STRIPS,
-        reasons=reasons,
         length=levels.length,
-        notes=(
-            *_sample_notes(prepared, sampling_error, levels),
-            *filter(None, [limit_in_words(by_limit), of_heat]),
-            *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
-            *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
-        ),
         violations=(
             *_violations(prepared, numbers, results, heat),
             *violations_by_correction(

@@ -37,17 +37,13 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     """Return the answer of ``balanced``."""
     scene = balanced.prepared.scene
     numbers = _numbers(balanced)
-    errors = errors_of(balanced)
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     report = balanced.corrected_balance.report
     return ModelAnswer(
         numbers=numbers,
-        numerical=errors.numerical,
-        sampling_error=errors.sampling_error,
-        model_error=errors.model_error,
-        parts_of_model=errors.parts_of_model,
+        errors=errors_of(balanced),
         accepts_model_error=scene.numerics.model == "paper",  # a scene that names this model accepts its error
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
@@ -60,13 +56,8 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
             strips=balanced.count,
             change_by_cells=balanced.relative_change(balanced.effect.gap_change),
         ),
-        errors=errors.errors,
-        why_no_error=errors.why_no_error,
-        reasons=errors.reasons,
         length=balanced.scatter.length,
         effective_contacts=balanced.scatter.effective_contacts,
-        area_needed=errors.area_needed,
-        notes=errors.notes,
         violations=(
             *violations_of_sample(balanced),
             *_violations_by_finer_cells(balanced.prepared, balanced.relative_change(balanced.effect.finer_grid_change)),

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from ...quantities import depending_on
 from ...samples import way_to_longer_line
 from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
+from ..model_answer import AnswerErrors
 from ..shared import (
     BY_HEAT,
     FEW_CONTACTS,
@@ -48,33 +49,6 @@ UNDETECTED_UNKNOWN = "sampling not known: the patch is too short along y to esti
 
 
 @dataclass(frozen=True, kw_only=True)
-class PointErrors:
-    """Relative errors of f by source, and of the other numbers by name.
-
-    Attributes
-    ----------
-    numerical : of f, by solvers and grids
-    sampling_error : of f, because the sample is finite
-    model_error, parts_of_model : of f, by the model, as in `lubfric.models.ModelAnswer`
-    errors : of all numbers, by name
-    why_no_error : why an error is not known
-    reasons : why that of some numbers is not, by name
-    notes : what a reader should know of them
-    area_needed : as in `lubfric.estimate.Uncertainty`
-    """
-
-    numerical: float
-    sampling_error: StandardError
-    model_error: tuple[float, float]
-    parts_of_model: tuple[ModelErrorPart, ...]
-    errors: dict[str, float]
-    why_no_error: str
-    reasons: dict[str, str]
-    notes: tuple[str, ...]
-    area_needed: float
-
-
-@dataclass(frozen=True, kw_only=True)
 class SolverErrors:
     """The errors of solvers and grids.
 
@@ -93,7 +67,7 @@ class SolverErrors:
     area_error: float
 
 
-def errors_of(balanced: BalancedSample) -> PointErrors:
+def errors_of(balanced: BalancedSample) -> AnswerErrors:
     """Return the errors of ``balanced``."""
     scene = balanced.prepared.scene
     balance = balanced.corrected_balance
@@ -137,13 +111,13 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     parts = _parts_of_model(by_equation, by_heat)
     model_error = sides_of_parts(parts)
     of_f = numerical if math.isnan(of_sample) else math.hypot(numerical, of_sample)
-    return PointErrors(
+    return AnswerErrors(
         numerical=numerical,
         sampling_error=StandardError(of_sample, error.freedom),
         model_error=model_error,
         parts_of_model=() if math.isnan(max(model_error)) else parts,
-        errors=errors | {"coefficient": of_f},
-        why_no_error=why,
+        of_numbers=errors | {"coefficient": of_f},
+        why_not_known=why,
         reasons=reasons,
         notes=(*notes, *unknown, *filter(None, [of_heat])),
         area_needed=_area_needed(balanced),

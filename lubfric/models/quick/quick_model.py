@@ -158,7 +158,7 @@ class QuickSolution(SampleSolution):
             with_strips = replace(self, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
         except (ConvergenceError, TooManyCellsError) as error:
             return None, STRIPS_NOT_SOLVED.format(error)
-        error_of_strips = max(with_strips.answer().model_error)
+        error_of_strips = max(with_strips.answer().errors.model_error)
         if is_thick and self._is_separated_within(error_of_strips):
             return None, THICK_FILM_NOTE
         return with_strips, ""
@@ -187,13 +187,13 @@ class QuickSolution(SampleSolution):
         """Return whether no asperity carries load by load sharing, with a relative model-form error of at most ``most``."""
         assert self.paper_solution is not None
         answer = self.paper_solution.answer()
-        return answer.numbers["contact_load"] == 0 and max(answer.model_error) <= most
+        return answer.numbers["contact_load"] == 0 and max(answer.errors.model_error) <= most
 
     def why_sufficient(self) -> str:
         if self.on_long_cells is None or not self.may_suffice():
             return ""
         tolerance = self.prepared.scene.numerics.model_tolerance
-        error = self.answer().error_of_model_alone
+        error = self.answer().errors.of_model_alone
         if error > tolerance:
             return ""
         (stated, target) = percent_beside(error, tolerance)
@@ -211,7 +211,8 @@ class QuickSolution(SampleSolution):
         assert solution.paper_solution is not None
         answer = solution.paper_solution.answer()
         decision = replace(answer.decision, basis=BY_LOAD_SHARING)
-        return replace(answer, decision=decision, notes=(*answer.notes, solution.why_by_equation))
+        errors = replace(answer.errors, notes=(*answer.errors.notes, solution.why_by_equation))
+        return replace(answer, decision=decision, errors=errors)
 
 
 def expected_coarsening(scene: Scene, sample: Sample, sq: float, speed: float) -> tuple[float, float]:

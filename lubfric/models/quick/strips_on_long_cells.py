@@ -262,14 +262,17 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
     )
-    parts = (by_cells, *answer.parts_of_model)
+    parts = (by_cells, *answer.errors.parts_of_model)
     cases = on_long_cells.error_model.cases
     basis = f"quick model (the deterministic model on long cells, calibrated on {cases} solved cases)"
     return replace(
         answer,
-        model_error=sides_of_parts(parts).capped(),
-        notes=(*answer.notes, CELLS_IN_MODEL_ERROR),
-        parts_of_model=parts,
+        errors=replace(
+            answer.errors,
+            model_error=sides_of_parts(parts).capped(),
+            notes=(*answer.errors.notes, CELLS_IN_MODEL_ERROR),
+            parts_of_model=parts,
+        ),
         violations=(
             *answer.violations,
             *(part.violation for part in reported(on_long_cells.outside)),
