@@ -20,8 +20,8 @@ from ..studies import (
     name_of,
     operating_keys,
 )
-from ..units import with_interval
-from .report import table
+from ..units import interval_in_words, with_interval
+from .report import INTERVAL_OF_F, table
 
 # Operating conditions up to which each has a sentence, and combinations that a sentence names. Choices: more makes a table of a
 # text.
@@ -160,10 +160,19 @@ def best_table(result: StudyResult) -> str:
         return ""
     rows = []
     for one in best_ones[:MOST_CONDITIONS]:
-        texts = (condition_in_words(one.condition), values_in_words(one.design), _number(one, "-"), str(one.row))
+        f = with_interval(one.value, *one.interval).partition(" (")[0]
+        interval = interval_in_words(*one.interval, value=one.value)
+        texts = (condition_in_words(one.condition), values_in_words(one.design), f, interval, str(one.row))
         cells = "".join(f"<td>{escape(text)}</td>" for text in texts)
         rows.append(f"{cells}<td>{escape(_rivals_in_words(one))}</td>")
-    heads = ["operating condition", "design with the lowest f", "f", "no.", "cannot be distinguished from"]
+    heads = [
+        "operating condition",
+        "design with the lowest f",
+        "f",
+        INTERVAL_OF_F,
+        "no.",
+        "cannot be distinguished from",
+    ]
     some = f" The first {MOST_CONDITIONS} of {len(best_ones)} conditions." if len(best_ones) > MOST_CONDITIONS else ""
     return f"<h2>Lowest friction at each operating condition</h2><p>{RULE}{some}</p>{table(heads, rows)}"
 

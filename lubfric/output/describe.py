@@ -35,6 +35,8 @@ from ..models.shared import (
     expected_effects,
     gathered,
     inlet_at,
+    percent,
+    student,
     violations_by_form,
     violations_by_inlet_of_moment,
     violations_by_strips,
@@ -446,7 +448,7 @@ def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[s
     assert plan is not None
     lines = []
     if estimate.widest is not None:
-        target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} %"
+        target = f"sampling error of f at 95 % at most {percent(student(math.inf) * scene.numerics.sampling_tolerance)}"
         target += f" at {estimate.widest.speed:.3g} m/s"
         lines = [f"sample: {counted(estimate.widest.strips, 'strips')} of the roughness, at all times ({target})"]
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"

@@ -2,7 +2,7 @@
 
 import base64
 import math
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from html import escape
 from itertools import cycle
 from typing import Any
@@ -27,11 +27,12 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, KEYS, counted, worded_value
 from ..scene import Scene, short_keys
-from ..studies import CurveResult, Law, StribeckResult, TractionResult
+from ..studies import CurveResult, Law, StribeckResult, TractionResult, columns_of_curve
 from ..time import TransientResult, effects_of_run, in_motion, rolls, run_model_of
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, belongs_to_curve, is_among, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
+from .missed_tolerances import MissedTolerance, missed_tolerances
 from .page import framed
 from .run_files import captions
 
@@ -50,6 +51,8 @@ OF_OUTPUT = {
     "min_film": "after",
 }
 
+# Heading of the column of the intervals of f.
+INTERVAL_OF_F = "95 % interval of f"
 # What follows the scene's own speed or ratio in the table of a curve.
 OPERATING_POINT = " (operating point)"
 # Which force f is, where a reader may ask for its sign.
@@ -178,8 +181,8 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
     answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(scene, curve, *nearest)
     effects = estimate.effects if point is None else point.unmodelled_effects
     return {
-        "kind": status_kind(failed=failed, inexact=_largely_inexact(curve)),
-        "status": escape(curve_status(curve)),
+        "kind": status_kind(failed=failed, inexact=_largely_inexact(curve) + len(_missed(scene, curve))),
+        "status": escape(curve_status(scene, curve)),
         "answer": paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(scene, curve),
@@ -210,8 +213,8 @@ def _effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
 
 
 def status_kind(*, failed: bool, inexact: int) -> str:
-    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and at how many f is ``inexact``, an
-    order of magnitude."""
+    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and whether (not 0) f is ``inexact``:
+    an order of magnitude, or beyond a tolerance."""
     if failed:
         return "failed"
     return "inexact" if inexact else ""
@@ -223,8 +226,9 @@ WITHOUT_SAMPLING = (
 )
 
 
-def curve_status(curve: CurveResult) -> str:
-    """Return in a sentence whether all points of ``curve`` were solved; the first failure with its message."""
+def curve_status(scene: Scene, curve: CurveResult) -> str:
+    """Return in sentences whether all points of ``curve`` of ``scene`` were solved, and which of its tolerances they miss; the
+    first failure with its message."""
     plural = curve.SWEPT[3]
     total = len(curve.points)
     solved = total - len(curve.errors)
@@ -234,13 +238,17 @@ def curve_status(curve: CurveResult) -> str:
         if largely_inexact == 0:
             head = f"Converged: {head[0].lower()}{head[1:]}"
         points = [point for point in curve.points if point is not None]
-        inexact = sum(any(each.assumption == Assumption.NUMERICAL_ERROR for each in point.validity) for point in points)
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
-        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *shortfalls(inexact, unknown, total)))
+        missed = shortfalls(_missed(scene, curve), unknown, total, lambda index: _place(curve, index))
+        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *missed))
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]
     )
+
+
+def _missed(scene: Scene, curve: CurveResult) -> list[MissedTolerance]:
+    return list(missed_tolerances(columns_of_curve(curve), [scene] * len(curve.points)))
 
 
 def _largely_inexact(curve: CurveResult) -> int:
@@ -264,16 +272,15 @@ def orders_of_magnitude(count: int, total: int) -> list[str]:
     ]
 
 
-def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
-    """Return how many of ``total`` solved points miss the requested tolerance, and how many have no interval, in
-    sentences."""
-    places = [f"At {count} of {total} points the" if total > 1 else "The" for count in (inexact, unknown)]
-    words = "numerical error of f is above the requested tolerance" + (
-        "." if unknown else "; its interval includes this error."
-    )
-    sentences = [f"{places[0]} {words}"] if inexact > 0 else []
+def shortfalls(missed: Sequence[MissedTolerance], unknown: int, total: int, place: Callable[[int], str]) -> list[str]:
+    """Return which tolerances of ``total`` solved points are ``missed`` and where (``place`` of a row), and how many points have an
+    ``unknown`` interval, in sentences."""
+    sentences = [each.in_words(total, place) for each in missed]
+    if missed and not unknown:
+        sentences.append(f"The interval of f includes {'this error' if len(missed) == 1 else 'these errors'}.")
     if unknown > 0:
-        sentences.append(f"{places[1]} interval of f is not known.")
+        head = f"At {unknown} of {total} points the" if total > 1 else "The"
+        sentences.append(f"{head} interval of f is not known.")
     return sentences
 
 
@@ -539,7 +546,7 @@ def _operating_table(scene: Scene, curve: CurveResult) -> str:
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
     units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
-    heads = [_heading(swept, units[swept]), "f", "95 % interval of f", *(_heading(n, units[n]) for n in OF_POINT)]
+    heads = [_heading(swept, units[swept]), "f", INTERVAL_OF_F, *(_heading(n, units[n]) for n in OF_POINT)]
     heads.append("asperity load ratio F_C/F_T")
     rows = []
     for index, point in enumerate(curve.points):
@@ -850,7 +857,7 @@ def _history_table(result: TransientResult) -> str:
     heads = [_heading(name, units[name]) for name in before]
     heads += [
         "f",
-        "95 % interval of f" + (", without model-form error" if result.model_form_unknown else ""),
+        INTERVAL_OF_F + (", without model-form error" if result.model_form_unknown else ""),
         *(_heading(name, units[name]) for name in after),
         "asperity load ratio F_C/F_T",
     ]

@@ -3,12 +3,12 @@
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html import escape
 
 import numpy as np
 
-from .._base import __version__
+from .._base import FloatArray, __version__
 from ..estimate import PARTS
 from ..models.shared import (
     NUMERICAL_ERROR,
@@ -17,14 +17,15 @@ from ..models.shared import (
     UnmodelledEffect,
     alpha_of_points_in_words,
     first_sentence,
-    gathered_in_table,
     half_width_of_error,
     is_near_zero,
     is_note_text,
     numbers_in_words,
     peak_hertz_pressure,
     percent,
+    percent_of_sides,
     sentence,
+    sides_in_f,
     unmodelled_effects,
     warnings_in_cell,
 )
@@ -48,12 +49,23 @@ from ..studies import (
     scenes_of,
 )
 from ..time import may_move_roughness
-from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
+from ..units import (
+    ZERO_CELSIUS,
+    converted,
+    interval_in_words,
+    plain_number,
+    printed,
+    unit_of_largest,
+    with_interval,
+    worded,
+)
 from .best_designs import best_lines, best_table
 from .inputs import INPUT_SECTIONS, inputs
+from .missed_tolerances import MissedTolerance, missed_tolerances
 from .page import framed
 from .report import (
     GAP_OF_TOUCHING,
+    INTERVAL_OF_F,
     effects_table,
     films_at_limit,
     is_gap_of_touching,
@@ -86,6 +98,10 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     "min_film": None,
     ASPERITY_LOAD_RATIO: None,
 }
+
+# Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their interval.
+UNBROKEN = ' style="white-space: nowrap"'
+TWO_LINES = ' style="min-width: 9em"'
 
 # Digits of what is varied, which is exact. A choice: less makes neighbours alike.
 CELL_DIGITS = 4
@@ -125,12 +141,27 @@ MOST_MEANS = 6
 CAPTION = "The results of the study"
 
 
+@dataclass(frozen=True, kw_only=True)
+class PartOfError:
+    """A part of the error of f at some points, relative, at 95 %, (n,).
+
+    Attributes
+    ----------
+    largest : of both sides
+    towards, away : towards 0 and away from it; NaN where both sides are ``largest``
+    """
+
+    largest: FloatArray
+    towards: FloatArray
+    away: FloatArray
+
+
 def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str]) -> bytes:
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
     import scipy
 
     warnings = numbered_warnings(result)
-    notes = [_without_kind(each.text) for each in _gathered(result) if is_note_text(each.text)]
+    notes = [_without_kind(each.text) for each in result.gathered if is_note_text(each.text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = (
@@ -157,7 +188,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             numpy=np.__version__,
             scipy=scipy.__version__,
             key=result.plan.keys[0][:16],
-            kind=status_kind(failed=result.failed > 0, inexact=_largely_inexact(result)),
+            kind=status_kind(failed=result.failed > 0, inexact=_largely_inexact(result) + len(_missed(result))),
             status=escape(study_status(result)),
             answer="".join(
                 f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)
@@ -185,22 +216,17 @@ def _counts_as_paragraph(result: StudyResult) -> str:
     return f"<p>{escape(sentence(counts))}</p>" if counts else ""
 
 
-def _gathered(result: StudyResult) -> list[GatheredTexts]:
-    """Return one sentence for each assumption that does not hold somewhere, with the points."""
-    return gathered_in_table([str(cell) for cell in columns_of_study(result)["validity"]])
-
-
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
     """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which are of no
     point, then the assumptions that do not hold somewhere."""
     warnings = [GatheredTexts(text=sentence(note), numbers=()) for note in result.plan.notes]
-    return [*warnings, *(each for each in _gathered(result) if not is_note_text(each.text))]
+    return [*warnings, *(each for each in result.gathered if not is_note_text(each.text))]
 
 
 def counts_of_warnings(result: StudyResult) -> str:
     """Return at how many points of a study there are warnings and notes, as its tables have them, and what these are; "" where
     there are none."""
-    noted = {number for each in _gathered(result) if is_note_text(each.text) for number in each.numbers}
+    noted = {number for each in result.gathered if is_note_text(each.text) for number in each.numbers}
     if not result.with_warnings and not noted:
         return ""
     notes = (
@@ -215,7 +241,7 @@ def warning_lines(result: StudyResult) -> list[str]:
     counts = counts_of_warnings(result)
     if not counts:
         return []
-    heads = [first_sentence(each.text) for each in _gathered(result) if not is_note_text(each.text)]
+    heads = [first_sentence(each.text) for each in result.gathered if not is_note_text(each.text)]
     full = ", and report.html has them in full with what to do"
     return [f"{counts}{full}{':' if heads else '.'}", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 
@@ -228,7 +254,7 @@ def _without_kind(text: str) -> str:
 def tolerance_lines(result: StudyResult) -> list[str]:
     """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
     of_tolerances = (NUMERICAL_ERROR, SAMPLING_ERROR)
-    texts = [each.text for each in _gathered(result) if is_note_text(each.text)]
+    texts = [each.text for each in result.gathered if is_note_text(each.text)]
     lines = [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
     return [f"{line}{'' if line.startswith('At point') else ALL_IN_TABLE}" for line in lines]
 
@@ -326,13 +352,17 @@ def study_status(result: StudyResult) -> str:
     total = counted(result.solved, "points")
     if not result.failed:
         head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
-        inexact = sum(NUMERICAL_ERROR in str(cell) for cell in result.validity.flat)
         unknown = int(np.isnan(result["interval_low"][np.isfinite(result["coefficient"])]).sum())
         warned = orders_of_magnitude(_largely_inexact(result), result.solved)
-        return " ".join((*warned, head, *shortfalls(inexact, unknown, result.solved)))
+        missed = shortfalls(_missed(result), unknown, result.solved, lambda row: f"at point {row + 1}")
+        return " ".join((*warned, head, *missed))
     failed = Counter(result.failures)
     reasons = "; ".join(f"{count} x {reason.removesuffix('.')}" for reason, count in failed.most_common(3))
     return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}."
+
+
+def _missed(result: StudyResult) -> list[MissedTolerance]:
+    return list(missed_tolerances(columns_of_study(result), _scene_of_each(result)))
 
 
 def _largely_inexact(result: StudyResult) -> int:
@@ -365,11 +395,19 @@ def _table(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) ->
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     omitted = {*_constant(result, count), *_derived(result)}
-    for name in (*(name for name in result.coords if name not in omitted), *REPORTED_NUMBERS):
+    for name in (name for name in result.coords if name not in omitted):
         (head, column) = _column(result, columns, name, picked)
         heads.append(head)
         cells.append(column)
-    inputs_alone = len(heads) - len(REPORTED_NUMBERS)
+    inputs_alone = len(heads)
+    for name in REPORTED_NUMBERS:
+        (head, column) = _column(result, columns, name, picked)
+        if name != "coefficient":
+            heads.append(head)
+            cells.append(column)
+            continue
+        heads += [head, INTERVAL_OF_F]
+        cells += _friction_and_interval(columns, picked)
     if any(each.numbers for each in warnings):
         heads.append("warnings")
         cells.append([_numbers_of_warnings(warnings, row + 1) for row in picked])
@@ -378,14 +416,29 @@ def _table(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) ->
     body = []
     for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
         numbers = row[:inputs_alone] if status in failures else row
-        texts = "".join(f'<td class="number">{escape(text)}</td>' for text in numbers)
+        texts = "".join(_number_cell(head, text) for head, text in zip(heads, numbers))
         body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
     return table(heads, body)
+
+
+def _number_cell(head: str, text: str) -> str:
+    """Return a cell of a number in the column with this ``head``."""
+    style = UNBROKEN if head == INTERVAL_OF_F else TWO_LINES if "(" in text else ""
+    return f'<td class="number"{style}>{escape(text)}</td>'
 
 
 def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
     """Return the numbers of the ``warnings`` that hold at a ``point``, as text."""
     return ", ".join(str(number) for number, each in enumerate(warnings, 1) if point in each.numbers) or "-"
+
+
+def _friction_and_interval(columns: dict[str, np.ndarray], picked: np.ndarray) -> tuple[list[str], list[str]]:
+    """Return f at the points that are ``picked`` and its 95 % intervals, each in as many digits as the interval shows."""
+    values = columns["coefficient"][picked].tolist()
+    low, high = (columns[end][picked].tolist() for end in INTERVAL_COLUMNS["coefficient"])
+    rows = list(zip(values, low, high))
+    f = ["-" if np.isnan(row[0]) else with_interval(*row).partition(" (")[0] for row in rows]
+    return f, [interval_in_words(first, last, value=value) for value, first, last in rows]
 
 
 def _column(
@@ -436,8 +489,8 @@ def _details(result: StudyResult, rows: int) -> str:
     for i, row in enumerate(picked):
         cells = [f"{row + 1}", *(texts[i] for _, texts in derived), worded(peak_hertz_pressure(scenes[row]), "Pa")]
         cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
-        size = abs(float(columns["coefficient"][row]))
-        cells += [_error_in_words(float(part[i]), size) for part in parts.values()]
+        f = float(columns["coefficient"][row])
+        cells += [_error_in_words(part, i, f) for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     heads = [
         "no.",
@@ -454,9 +507,13 @@ def _details(result: StudyResult, rows: int) -> str:
     return f"<details><summary>{about}</summary>{note}{table(heads, body)}</details>"
 
 
-def _error_in_words(error: float, f: float) -> str:
-    """Return a relative ``error`` of ``f`` as text; in f itself where that is near 0."""
-    return f"{error * f:.2g} in f" if is_near_zero(f, error) else percent(error)
+def _error_in_words(error: PartOfError, place: int, f: float) -> str:
+    """Return a relative ``error`` of ``f`` at a ``place`` of its arrays as text, with both sides where they differ; in f itself
+    where that is near 0."""
+    largest, towards, away = (float(values[place]) for values in (error.largest, error.towards, error.away))
+    if is_near_zero(f, largest):
+        return f"{sides_in_f((towards, away), largest, f)} in f"
+    return percent_of_sides((towards, away), largest)
 
 
 def why_no_rises(result: StudyResult) -> list[str]:
@@ -498,19 +555,28 @@ def _why_no_rise(scene: Scene, speed: float) -> str:
 
 def _parts_of_error(
     columns: Mapping[str, np.ndarray], index: np.ndarray | tuple[int, ...], scenes: Sequence[Scene]
-) -> dict[str, np.ndarray]:
-    """Return the parts of the error of f, relative, at 95 %, at an ``index`` of the ``columns``, by what they are called.
+) -> dict[str, PartOfError]:
+    """Return the parts of the error of f at an ``index`` of the ``columns``, by what they are called.
 
     Columns hold no text, so the inputs that are not given, whose range changes f, are those of the ``scenes`` there; where
     f does not depend on them, they are no part.
     """
-    parts = {name: np.atleast_1d(columns[COLUMN_OF_ERROR[part.quantity]][index]) for name, part in PARTS.items()}
-    freedom = np.atleast_1d(columns["sampling_freedom"][index])
-    of_sample = zip(parts["sampling"], freedom)
-    parts["sampling"] = np.array([half_width_of_error(error, float(n)) for error, n in of_sample])
+
+    def at_index(name: str) -> FloatArray:
+        values = columns.get(name)
+        return np.full(len(scenes), np.nan) if values is None else np.atleast_1d(values[index])
+
+    columns_of = {name: COLUMN_OF_ERROR[part.quantity] for name, part in PARTS.items()}
+    parts = {
+        name: PartOfError(largest=at_index(column), towards=at_index(f"{column}_low"), away=at_index(f"{column}_high"))
+        for name, column in columns_of.items()
+    }
+    of_sample = zip(parts["sampling"].largest, at_index("sampling_freedom"))
+    at_95 = np.array([half_width_of_error(error, float(n)) for error, n in of_sample])
+    parts["sampling"] = replace(parts["sampling"], largest=at_95)
     missing = names_of_inputs(key for scene in scenes for key in inputs_not_given(scene))
     labels = {"not given": f"{missing} not given"}
-    return {labels.get(name, name): part for name, part in parts.items() if name != "not given" or part.any()}
+    return {labels.get(name, name): part for name, part in parts.items() if name != "not given" or part.largest.any()}
 
 
 def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
@@ -625,7 +691,8 @@ def _budget_line(result: StudyResult) -> list[str]:
     curves = result.plan.scenes
     scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]
     parts = _parts_of_error(result.columns, index, [scene])
-    words = ", ".join(f"{name} {percent(float(part[0]))}" for name, part in parts.items())
+    size = float(result["coefficient"][index])
+    words = ", ".join(f"{name} {_error_in_words(part, 0, size)}" for name, part in parts.items())
     place = point_in_words(result, index).partition(":")[0]
     some = "" if np.isfinite(result["interval_low"]).all() else " with an interval"
     return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]

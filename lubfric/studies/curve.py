@@ -148,7 +148,7 @@ def checked_curve(result: R, *, raise_on_failure: bool) -> R:
     return returned(result)
 
 
-def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
+def columns_of_curve(curve: CurveResult) -> dict[str, np.ndarray]:
     """Return the columns of numbers of a curve by name: its quantities, then the uncertainty of f."""
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     rows = [{} if point is None else row_of_uncertainty(point.uncertainty) for point in curve.points]
@@ -160,5 +160,5 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
 def csv_bytes(curve: CurveResult) -> bytes:
     """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
     assumptions are violated there, and the uncertainty of f. Its bytes follow from the inputs: it has no times."""
-    named = {heading(name): values for name, values in numbers_of(curve).items() if name != "seconds"}
+    named = {heading(name): values for name, values in columns_of_curve(curve).items() if name != "seconds"}
     return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import FrictionResult, cite_together
-from ..models.shared import Violation, gathered, percent
+from ..models.shared import Violation, gathered, percent, student
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests
@@ -350,8 +350,8 @@ class FitResult(Renamed, Shown):
             return ""
         moved = ", ".join(f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in moves.items())
         return (
-            f"not in the intervals: another sample of the surface (standard error of f up to "
-            f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
+            f"not in the intervals: another sample of the surface (sampling error of f at 95 % up to "
+            f"{percent(student(math.inf) * float(np.nanmax(self.sampling)))}), which moves {moved}"
         )
 
     def explain(self) -> str:

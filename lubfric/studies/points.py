@@ -13,10 +13,13 @@ from ..estimate import FrictionResult, Uncertainty, friction, row_of_uncertainty
 from ..models import prepare, prepare_on_maps
 from ..models.shared import (
     SAMPLING_ERROR,
+    SAMPLING_ERROR_MISSED,
     Assumption,
     Prepared,
     Violation,
     in_a_cell,
+    standard_error_in_words,
+    student,
     violations_by_model_error,
 )
 from ..quantities import NUMBERS
@@ -170,18 +173,19 @@ def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]
 
 
 def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
-    """Yield a note if the standard error of f by the finite sample is above its tolerance. A single point has it among the
+    """Yield a note if the sampling error of f is above its tolerance, both at 95 %. A single point has it among the
     notes of its ``uncertainty``; a table has it among the assumptions that do not hold, as the numerical error."""
-    if uncertainty.sampling > uncertainty.tolerance:
+    if uncertainty.sampling > SAMPLING_ERROR_MISSED * uncertainty.tolerance:
         times = uncertainty.area_needed
+        at_95 = student(uncertainty.freedom)
         yield Violation(
             assumption=Assumption.SAMPLING_ERROR,
             what=SAMPLING_ERROR,
             is_note=True,
-            value=100 * uncertainty.sampling,
-            limit=100 * uncertainty.tolerance,
+            value=100 * at_95 * uncertainty.sampling,
+            limit=100 * at_95 * uncertainty.tolerance,
             unit="%",
-            consequence="numerics.sampling_tolerance sets this limit; the interval of f includes the error",
+            consequence=f"{standard_error_in_words(uncertainty.tolerance)}, sets this limit; the interval of f includes the error",
             recommendation=f"give a map of about {times:.2g} times the area" if times > 1 else "",
         )
 

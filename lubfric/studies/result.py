@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, methods_of
 from ..models import Model, models_that_may_answer, prepare
-from ..models.shared import warnings_in_cell
+from ..models.shared import GatheredTexts, gathered_in_table, warnings_in_cell
 from ..quantities import COLUMN_OF_ERROR, NUMBERS
 from ..scene import Scene
 from .best import best, best_mean
@@ -30,7 +30,7 @@ from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, 
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_lines import plot
 from .study_table import StudyTable
-from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+from .tables import columns_of_study, place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
@@ -126,6 +126,11 @@ class StudyResult(Renamed, Shown):
     def missing(self) -> int:
         """Number of points (of curves, if speeds are chosen) that an interrupted study has not reached."""
         return int(np.count_nonzero(self.status == MISSING))
+
+    @cached_property
+    def gathered(self) -> tuple[GatheredTexts, ...]:
+        """One text for each assumption that does not hold somewhere, with the numbers of its points, from 1."""
+        return tuple(gathered_in_table([str(cell) for cell in columns_of_study(self)[VALIDITY]]))
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name in (STATUS, VALIDITY):

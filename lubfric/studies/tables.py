@@ -17,7 +17,7 @@ from ..quantities import COLUMNS, KEYS, Quantity, axis_label, described, heading
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
 from .choose import between
-from .curve import numbers_of
+from .curve import columns_of_curve
 from .interpolate import through
 from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
@@ -327,7 +327,7 @@ def curve_axes(curve: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are
     returned; ``style``: of the line."""
     axes = figures.axes_or_new(ax)
-    friction_over_speed(axes, numbers_of(curve), **style)
+    friction_over_speed(axes, columns_of_curve(curve), **style)
     return axes
 
 

@@ -404,7 +404,11 @@ def collect(
     if not math.isnan(grid_error):
         residuals["grid"] = grid_residual(grid_error / model.scene.numerics.tolerance_of("film"))
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
-    surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
+    surface = (
+        "not known"
+        if math.isnan(sampling)
+        else f"sampling error of f at 95 % at most {percent(student(MANY_BLOCKS) * sampling)}"
+    )
     prepared = model.prepared
     renewal = prepared.sample.renewal_length(prepared.scene.bodies.half_width)
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}

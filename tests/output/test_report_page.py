@@ -15,6 +15,7 @@ from scipy.special import stdtrit
 
 from lubfric.models.shared import checks
 from lubfric.output import main
+from lubfric.output.missed_tolerances import MissedTolerance
 from lubfric.output.report import shortfalls
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -222,7 +223,7 @@ def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_firs
     assert main([command, str(tmp_path / "s.toml"), *options, "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     ((kind, text),) = re.findall(r'<p class="status (\w*)" role="status">(.*?)</p>', page)
-    assert kind == ("inexact" if is_large else "")
+    assert kind == "inexact" and "numerics.tolerance" in text
     first = "At 2 of 2 points the numerical error of f is above 20 %, so f is only an order of magnitude (see the warnings)."
     solved = "Converged: all 2" if command == "study" else "All 2"
     assert text.startswith(f"{first} {solved}" if is_large else "Converged: all 2")
@@ -230,9 +231,20 @@ def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_firs
 
 
 def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
-    assert shortfalls(0, 0, 3) == []
-    inexact, unknown = shortfalls(2, 3, 3)
-    assert inexact.startswith("At 2 of 3 points the numerical error of f is above the requested tolerance")
-    assert "its interval includes" not in inexact and "its interval includes" in shortfalls(2, 0, 3)[0]
+    def place(row):
+        return f"at U = {row} m/s"
+
+    missed = MissedTolerance(
+        error="numerical error of f", tolerance="numerics.tolerance", points=(0, 2), worst=2, value=0.02, limit=0.01
+    )
+    assert shortfalls([], 0, 3, place) == []
+    (inexact, unknown) = shortfalls([missed], 3, 3, place)
+    assert inexact == (
+        "At 2 of 3 points the numerical error of f is above its tolerance, farthest at U = 2 m/s: 2 %, above 1 % (numerics.tolerance)."
+    )
     assert unknown == "At 3 of 3 points the interval of f is not known."
-    assert shortfalls(0, 1, 1) == ["The interval of f is not known."]
+    assert shortfalls([missed], 0, 3, place)[1] == "The interval of f includes this error."
+    assert shortfalls([], 1, 1, place) == ["The interval of f is not known."]
+    alone = MissedTolerance(error="e", tolerance="k", points=(0,), worst=0, value=0.0104, limit=0.01)
+    assert shortfalls([alone], 1, 1, place)[0] == "The e is 1.04 %, above 1 % (k)."
+    assert shortfalls([alone], 1, 2, place)[0] == "At U = 0 m/s the e is 1.04 %, above 1 % (k)."

@@ -35,7 +35,7 @@ def test_a_run_held_at_one_speed_is_the_steady_point(held):
     np.testing.assert_allclose(held.coefficient, steady.coefficient, rtol=0.03)
     np.testing.assert_allclose(held.sampling_error, steady.uncertainty.sampling, rtol=0.4)
     assert np.all(held.uncertainty.interval[:, 0] < held.coefficient)
-    assert "standard error" in " ".join(held.report.notes)
+    assert "sampling error of f at 95 % at most" in " ".join(held.report.notes)
 
 
 def test_an_average_over_time_is_as_unsure_as_its_line(held):

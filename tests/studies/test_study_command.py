@@ -14,12 +14,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
+from scipy.stats import t as student
 from small_study import SCENE as SMALL
 
 import lubfric
 from lubfric import studies
 from lubfric._base.progress import report_progress
 from lubfric.output import main, run_study, study_pictures, study_report
+from lubfric.studies import result as study_result
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -282,7 +284,7 @@ def test_the_picture_of_a_study_is_drawn_again_for_a_journal(tmp_path, drawn):
     assert main(["plot", str(out), "--panels", "load"]) != 0
 
 
-MISSED = "standard error of f by the sample of the surface is"
+MISSED = "sampling error of f at 95 % is"
 
 
 def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys):
@@ -293,7 +295,7 @@ def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys
     (tmp_path / "small.toml").write_text(scene.to_toml())
     (tmp_path / "s.toml").write_text('scene = "small.toml"\nspeeds = [0.1, 1.0]\n[vary]\nbodies.load = [3.0, 5.5]\n')
     assert main(["study", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == 0
-    above = lubfric.open_study(tmp_path / "out")["sampling_error"].ravel() > 1e-3
+    above = lubfric.open_study(tmp_path / "out")["sampling_error"].ravel() > 1.05e-3
     where = f"At point{'s' if above.sum() > 1 else ''} {' and '.join(str(i + 1) for i in np.flatnonzero(above))}"
     said, page = capsys.readouterr().err, (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     with (tmp_path / "out" / "study.csv").open(encoding="utf-8") as table:
@@ -301,7 +303,7 @@ def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys
     assert [MISSED in cell for cell in cells] == above.tolist() and 0 < above.sum() < above.size
     for text in (said, page):
         words = " ".join(text.split())
-        assert words.count(f"{where}: {MISSED}") == words.count("error of f by the sample") == 1
+        assert words.count(f"{where}: {MISSED}") == words.count(f": {MISSED}") == 1
 
 
 def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
@@ -328,6 +330,70 @@ def test_the_table_of_a_report_has_the_films():
     places = [heads.index(name) for name in ("central separation [nm]", "smallest film thickness [nm]", "lambda ratio")]
     cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows[:2]]
     assert [[row[place] for place in places] for row in cells] == [["200", "110", "0.7"], ["300", "120", "0.8"]]
+
+
+def with_columns(result, **columns):
+    """A study with other numbers in some columns."""
+    shape = result.status.shape
+    return replace(result, columns=result.columns | {name: np.reshape(v, shape) for name, v in columns.items()})
+
+
+def test_a_status_names_the_tolerances_that_are_missed_and_by_how_much():
+    """Of numerical, sampling (at 95 %, by Student's t) and model-form error; the box has the colour of a warning then."""
+    plain = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
+    kind = re.compile(r'<p class="status (\w*)" role="status">(.*?)</p>')
+    assert kind.findall(study_report.study_page(plain, {}, []).decode()) == [
+        ("", "Converged: all 3 points are solved.")
+    ]
+    numerics = SMALL.numerics
+    missed = with_columns(
+        plain,
+        numerical_error=numerics.tolerance * np.array([0.9, 1.5, 3.0]),
+        sampling_error=numerics.sampling_tolerance * np.array([1.0, 2.0, 1.0]),
+        sampling_freedom=[4.0, 4.0, 4.0],
+    )
+    ((colour, text),) = kind.findall(study_report.study_page(missed, {}, []).decode())
+    t = student.ppf(0.975, 4)
+    at_95 = [f"{100 * t * n * numerics.sampling_tolerance:.2g} %" for n in (2, 1)]
+    assert colour == "inexact" and text == (
+        "Converged: all 3 points are solved. At 2 of 3 points the numerical error of f is above its tolerance, farthest at point 3: "
+        f"{300 * numerics.tolerance:.2g} %, above {100 * numerics.tolerance:.2g} % (numerics.tolerance). At point 2 the sampling "
+        f"error of f at 95 % is {at_95[0]}, above {at_95[1]} (numerics.sampling_tolerance = {numerics.sampling_tolerance:g}, a "
+        "standard error). The interval of f includes these errors."
+    )
+    chosen = lubfric.plan_study(SMALL.with_(numerics={"model": "auto"}), {"bodies.load": [1.0, 2.0, 3.0]}, [0.3])
+    of_model = with_columns(replace(plain, plan=chosen), model_error=[0.01, 0.3, 0.3], limit_error=[0.0, 0.299, 0.18])
+    ((colour, text),) = kind.findall(study_report.study_page(of_model, {}, []).decode())
+    assert colour == "inexact" and "At point 3 the model-form error of f is 24 %, above 5 %" in text
+
+
+def test_a_study_states_both_sides_of_the_parts_of_an_interval():
+    """In the sentence of the largest f and in the table of every point; f and its interval have a column each."""
+    plain = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.05 * scene.bodies.load)
+    sides = {"model_error": [0.1, 0.2], "model_error_low": [0.1, 0.05], "model_error_high": [0.1, 0.2]}
+    result = with_columns(plain, interval_low=[0.04, 0.09], interval_high=[0.06, 0.13], **sides)
+    (line,) = (line for line in study_report.answer_lines(result) if "relative errors of the largest f" in line)
+    assert "model-form -5 to +20 %" in line
+    page = study_report.study_page(result, {}, []).decode()
+    rows = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", page)]
+    heads = re.findall(r"<th[^>]*>([^<]*)</th>", page.split("<h2>Operating points</h2>")[1])
+    place = heads.index("95 % interval of f")
+    assert heads[place - 1] == "friction coefficient"
+    (first, last) = [row for row in rows if len(row) > place and row[place - 1].startswith(("0.05", "0.10"))]
+    assert first[place - 1 : place + 1] == ["0.050", "0.040 to 0.060"] and last[place] == "0.090 to 0.130"
+    assert any("-5 to +20 %" in row for row in rows) and any(row.count("10 %") == 1 for row in rows)
+
+
+def test_texts_of_a_study_are_gathered_once_for_console_and_report(monkeypatch):
+    cells = []
+    gather = study_result.gathered_in_table
+    monkeypatch.setattr(study_result, "gathered_in_table", lambda texts: cells.append(texts) or gather(texts))
+    result = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.1)
+    result = replace(result, validity=np.full(result.status.shape, "warning: slip is 3, below 5. Why."))
+    page = study_report.study_page(result, {}, []).decode()
+    assert "slip is 3" in page and study_report.warning_lines(result) and study_report.tolerance_lines(result) == []
+    assert len(cells) == 1
+    assert not study_report.warning_lines(replace(result, validity=np.full(result.status.shape, "")))
 
 
 @pytest.mark.parametrize("model_tolerance", [1e-3, 1.0])

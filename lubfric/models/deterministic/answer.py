@@ -17,6 +17,8 @@ from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
     GIVE_LIMIT,
+    SAMPLING_ERROR,
+    SAMPLING_ERROR_MISSED,
     Assumption,
     Decision,
     Heat,
@@ -32,10 +34,10 @@ from ..shared import (
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
-    percent,
     percent_beside,
     sides_of_parts,
     smooth_rolling_resistance,
+    standard_error_in_words,
     violations_by_heat,
     violations_by_inlet,
     violations_by_motion,
@@ -60,10 +62,6 @@ from .time_and_place import PLACE_BLOCK, TIME_BLOCK, least_blocks
 BY_PLACES = "the scatter of the difference between the models from strip to strip"
 LESS_BY_TOLERANCE = "set a smaller numerics.model_tolerance to reduce it"
 BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which published theories differ"
-
-# Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known
-# to 5 %. A choice: less states what is no difference.
-WORTH_A_NOTE = 1.05
 
 # Counted work of a strip [s] above which no cells are recommended: an hour. A convention.
 LONGEST_WORK = 3600.0
@@ -422,12 +420,10 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(error.value):
         return _why_no_sampling_error(prepared, levels), BIASED
-    if error.value <= WORTH_A_NOTE * tolerance:
+    if error.value <= SAMPLING_ERROR_MISSED * tolerance:
         return ()
-    (stated, target) = percent_beside(error.value, tolerance)
-    both_sides = percent(half_width_of_error(error.value, error.freedom))
-    of_target = f"is above the target of {target} (numerics.sampling_tolerance)"
-    return (f"sampling: the standard error, {stated} ({both_sides} at 95 %), {of_target}",)
+    (stated, target) = percent_beside(*(half_width_of_error(each, error.freedom) for each in (error.value, tolerance)))
+    return (f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})",)
 
 
 def _words_of_levels(levels: Levels) -> str:

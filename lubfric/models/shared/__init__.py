@@ -98,6 +98,7 @@ from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
     SAMPLE_GROWTH,
+    SAMPLING_ERROR_MISSED,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
     STRIPS_SAFETY,
@@ -143,4 +144,4 @@ from .violation import (
     violations_of,
     warnings_in_cell,
 )
-from .wording import is_near_zero, percent, percent_beside, percent_of_sides, sides_in_f
+from .wording import is_near_zero, percent, percent_beside, percent_of_sides, sides_in_f, standard_error_in_words

@@ -70,7 +70,7 @@ ON_ENDS = 0.01
 # Names of the numerical and of the sampling error where they are above their tolerances; tables of studies hold them as
 # text.
 NUMERICAL_ERROR = "estimated numerical error of f"
-SAMPLING_ERROR = "standard error of f by the sample of the surface"
+SAMPLING_ERROR = "sampling error of f at 95 %"
 
 # Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: an
 # extrapolation from grid to grid is no more than an order of magnitude there.

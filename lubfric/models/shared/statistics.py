@@ -42,6 +42,10 @@ STRIPS_SAFETY = 1.3
 # (constants.csv).
 LEAST_GROWTH = 1.5
 
+# Sampling error over its target, above which it misses the target [-]: a standard error of a few strips is itself not known
+# to 5 %. A choice: less states what is no difference.
+SAMPLING_ERROR_MISSED = 1.05
+
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
 # guide further. A choice: more may solve strips in vain, less takes more rounds. Half and twice change f by up to 1.3 %
 # and the work by up to 13 % (constants.csv).

@@ -30,6 +30,11 @@ def percent(value: float, digits: int = 2) -> str:
     return "< 0.001 %" if 0 < value < INVISIBLE else f"{100 * value:.{digits}g} %"
 
 
+def standard_error_in_words(tolerance: float) -> str:
+    """Return what numerics.sampling_tolerance is, where errors beside it are stated at 95 %."""
+    return f"numerics.sampling_tolerance = {tolerance:g}, a standard error"
+
+
 def percent_beside(value: float, target: float) -> tuple[str, str]:
     """Return a ``value`` and its ``target`` as by `percent`, with as many digits as they need to differ as texts."""
     return distinct_texts(value, target, percent)
