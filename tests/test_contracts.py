@@ -406,7 +406,7 @@ def test_an_input_that_is_not_given_is_named_by_its_label(named, monkeypatch, tm
     assert bars.get("not given") == (f"{COLUMNS[key].label} (not given)" if missing else None)
     study = lubfric.study(scene, {}, speeds=[0.03])
     page = study_report.study_page(study, {}, study_report.answer_lines(study)).decode()
-    assert ("elastic shear modulus of the film not given 20 %" in page) == bool(missing)
+    assert ("elastic shear modulus of the film not given -10 to +20 %" in page) == bool(missing)
     assert (">elastic shear modulus of the film not given</th>" in page) == bool(missing)
     assert "boundary film not given" not in page
 

@@ -41,6 +41,7 @@ CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width i
 
 # Choices, by looking at the figures.
 PANEL_RATIO = 0.9  # height over width of a panel of a narrow picture
+ABOVE_NARROW_MAP = 0.35  # of its width, above and below the map of a narrow picture: title, bar of colours, labels
 STACKED_RATIO = 0.5  # height over width of a map, below which maps are below each other
 STACKED_WIDTH = 6.5  # inch: of a map of these
 STACKED_ABOVE = 0.45  # inch above and below each of them: labels
@@ -84,6 +85,7 @@ def plot_contact(path: Path, contact: DrawnContact, options: PictureOptions = Pi
     else:
         figure = _two_pressures(contact, options)
     figures.fit_labels(figure)
+    figures.cut_height(figure)
     figure.savefig(path)
 
 
@@ -220,8 +222,7 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     if fields is not None and touching:
         part = drawn_part(fields.x, fields.y, row)
         slender = bool(np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x))
-        if options.width is None and are_stacked(fields.x, fields.y[part]):
-            wide = True
+        wide = not options.is_narrow and are_stacked(fields.x, fields.y[part])
     ratio = 1.0 if fields is None or not touching else _drawn_ratio(fields.x, fields.y[part])
     (figure, axes) = _panels(sum(panels), options, slender=slender, ratio=ratio)
     if fields is not None and wide:
@@ -230,9 +231,8 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     if fields is not None and touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
         label = f"contact pressure ({unit})"
-        figures.field_image(
-            axes[0], fields.x, fields.y[part], pressure, "magma_r", label, place=_place_of_bar(options), vmin=0
-        )
+        place: Literal["right", "top"] = "right" if wide else _place_of_bar(options)
+        figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", label, place=place, vmin=0)
         _hertz_strip(axes[0], contact.half_width, options)
         axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
         title += "" if options.is_narrow else part_in_words(fields.y, part, "its line")
@@ -243,7 +243,11 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     title += "; dashed: Hertz strip" if panels[0] else ": no contact"
     _title(figure, title, options)
     if fields is not None and in_section:
-        _section(axes[-1], fields, row, touching=touching, columns=2 if options.width is None else 1)
+        _section(axes[-1], fields, row, touching=touching)
+        if options.width is not None and not options.is_narrow and not wide:
+            _key_below(figure, axes[-1])  # one above the section would leave an empty band above the map
+        else:
+            figures.key_above(axes[-1], 1 if options.is_narrow else 2)
         _hertz_strip(axes[-1], contact.half_width, options)
         if touching:
             axes[-1].set_xlabel(f"x (µm) at y = {worded(float(fields.y[row]), 'm')} (dotted)")
@@ -257,15 +261,15 @@ def _panels(count: int, options: PictureOptions, *, slender: bool, ratio: float)
     (width, height) = SECTION_SIZE
     height = min(height, ABOVE_SECTION + MAP_IN_SECTION * ratio)
     size = (width * sum(ratios), height)
+    heights = [PANEL_RATIO] * count
+    if options.is_narrow and not slender:
+        heights[0] = min(PANEL_RATIO, ratio + ABOVE_NARROW_MAP)
     if options.width is not None:
         whole = options.width / INCH
-        size = (
-            whole,
-            whole * PANEL_RATIO * count if options.is_narrow else max(whole * height / size[0], LEAST_HEIGHT),
-        )
+        size = (whole, whole * sum(heights) if options.is_narrow else max(whole * height / size[0], LEAST_HEIGHT))
     figure = figures.new_figure(figsize=size, layout=_layout(options))
     if options.is_narrow:
-        shown = figure.subplots(count, 1, squeeze=False)
+        shown = figure.subplots(count, 1, squeeze=False, height_ratios=heights)
     else:
         shown = figure.subplots(1, count, squeeze=False, width_ratios=ratios)
     return figure, list(shown.flat)
@@ -273,8 +277,10 @@ def _panels(count: int, options: PictureOptions, *, slender: bool, ratio: float)
 
 def _stacked(count: int, ratio: float, options: PictureOptions) -> tuple[Figure, list[Axes]]:
     """Return a figure of a map whose height over width is the ``ratio``, and, where ``count`` is 2, a section below it."""
-    heights = [STACKED_WIDTH * ratio + MAP_ABOVE, SECTION_SIZE[1]][:count]
-    figure = figures.new_figure(figsize=(STACKED_WIDTH + MAP_BESIDE, sum(heights)), layout=_layout(options))
+    usual = STACKED_WIDTH + MAP_BESIDE
+    whole = usual if options.width is None else options.width / INCH
+    heights = [(whole - MAP_BESIDE) * ratio + MAP_ABOVE, SECTION_SIZE[1] * whole / usual][:count]
+    figure = figures.new_figure(figsize=(whole, sum(heights)), layout=_layout(options))
     return figure, list(figure.subplots(count, 1, squeeze=False, height_ratios=heights).flat)
 
 
@@ -284,9 +290,15 @@ def _hertz_strip(axes: Axes, half_width: float, options: PictureOptions) -> None
     axes.set_xlabel("x (µm)" if options.is_narrow else "x (µm), along the motion")
 
 
-def _section(axes: Axes, fields: Any, row: int, *, touching: bool, columns: int) -> None:
-    """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need; the legend has
-    so many ``columns``."""
+def _key_below(figure: Figure, axes: Axes) -> None:
+    """Write the key of ``axes`` below ``figure``."""
+    handles, labels = axes.get_legend_handles_labels()
+    letters: dict[str, Any] = {"fontsize": figures.KEY_SIZE, "handlelength": figures.KEY_LINE}
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False, **letters)
+
+
+def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
+    """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
     micro = fields.x * 1e6
     surface = fields.heights[:, row]
     smooth = fields.film[:, row]
@@ -302,4 +314,3 @@ def _section(axes: Axes, fields: Any, row: int, *, touching: bool, columns: int)
     high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)
     axes.set(ylim=(low - room, high + room), ylabel="height above the mean (nm)")
-    figures.key_above(axes, columns)

@@ -16,6 +16,7 @@ from ..time import add_angle_axis, band_label, friction_over_time, in_motion, ti
 from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
+from .point_picture import draw_point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 
 # What the text below the curve lists.
 NOT_FULFILLED = "Assumptions of the model that the marked points do not fulfil (see the warnings)"
+
+# The same of one point, which needs no mark.
+NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (see the warnings)"
 
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
@@ -53,12 +57,17 @@ def plot_stribeck(
     for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured`, drawn with the
     curve. ``operating_point``: the solved speed [m/s] that is the scene's own; NaN marks none.
     """
-    figure, axes = _panels([name for name in PANELS["stribeck"] if name in options.panels], options)
-    shown = [*axes.values()]
+    panels = [name for name in PANELS["stribeck"] if name in options.panels]
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
     speed = np.abs(c["speed"])
+    if _is_point(order, measured, options):
+        place = f"U = {worded(float(c['speed'][0]), 'm/s')}"
+        _save_point(path, c, panels, f"{title}\n{place}", [violations[i] for i in order], options)
+        return
+    figure, axes = _panels(panels, options)
+    shown = [*axes.values()]
     if "friction" in axes:
         top = axes["friction"]
         friction_over_speed(
@@ -77,11 +86,34 @@ def plot_stribeck(
         _films(axes["film"], speed, c)
     last = shown[-1]
     last.set(xscale="log", xlabel=figures.speed_label(c["speed"]))
-    if speed.size == 1:  # a narrow bar in the middle
+    if speed.size == 1:  # a narrow bar in the middle, beside what was measured
         last.set_xlim(speed[0] / LONE, speed[0] * LONE)
     options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
     for each in shown:
         figures.plain_ticks(each.xaxis)
+    options.thin(figure)
+    figures.fit_labels(figure)
+    figure.savefig(path)
+
+
+def _is_point(order: np.ndarray, measured: Any, options: PictureOptions) -> bool:
+    """Return whether one point is drawn, in the places ``order`` of a table, with nothing else over an axis of speeds or ratios and
+    no scale of an axis chosen."""
+    return order.size == 1 and measured is None and options.x_scale is None and options.y_scale is None
+
+
+def _save_point(
+    path: Path,
+    columns: dict[str, np.ndarray],
+    panels: list[str],
+    title: str,
+    violations: list[Sequence[Any]],
+    options: PictureOptions,
+) -> None:
+    """Save the picture of the one point in ``columns``, with its ``violations`` below it."""
+    figure = draw_point(columns, panels, options)
+    figures.head(figure, title if options.has_title else "")
+    _list_assumptions(figure, _shown_violations(violations, options))
     options.thin(figure)
     figures.fit_labels(figure)
     figure.savefig(path)
@@ -146,6 +178,10 @@ def plot_traction(
         raise InputError(
             "--panels temperature: the curve has no temperatures, which its runs have not computed; omit it"
         )
+    if _is_point(order, measured, options):
+        place = f"slide-roll ratio {ratio[0]:.4g}"
+        _save_point(path, c, panels, f"{title}\n{place}", [violations[i] for i in order], options)
+        return
     figure, axes = _panels(panels, options)
     if "friction" in axes:
         top = axes["friction"]
@@ -234,10 +270,7 @@ def _mark(
     options: PictureOptions,
 ) -> None:
     """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below says which. Then the key of all lines."""
-    violations = [
-        [violation for violation in violated if violation.severe or (options.has_warnings and not violation.is_note)]
-        for violated in violations
-    ]
+    violations = _shown_violations(violations, options)
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
     for chosen, marker, color, label in (
@@ -246,15 +279,29 @@ def _mark(
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    counts = Counter(name for violated in violations for name in {each.assumption or each.what for each in violated})
-    if counts:
-        named = (
-            what.rstrip(",") + ("" if n == len(violations) else f" ({n} of {len(violations)} points)")
-            for what, n in counts.items()
-        )
-        text = f"{NOT_FULFILLED}: {'; '.join(named)}"
-        figure.supxlabel(text, fontsize="small", color=figures.GREY, wrap=True)
+    _list_assumptions(figure, violations)
     figures.key_above(axes)
+
+
+def _shown_violations(violations: list[Sequence[Any]], options: PictureOptions) -> list[Sequence[Any]]:
+    """Return those of the ``violations`` of each point that a picture shows: no notes, and warnings unless omitted."""
+    return [
+        [violation for violation in violated if violation.severe or (options.has_warnings and not violation.is_note)]
+        for violated in violations
+    ]
+
+
+def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
+    """List below ``figure`` which assumptions are violated, and at how many points."""
+    counts = Counter(name for violated in violations for name in {each.assumption or each.what for each in violated})
+    if not counts:
+        return
+    named = (
+        what.rstrip(",") + ("" if n == len(violations) else f" ({n} of {len(violations)} points)")
+        for what, n in counts.items()
+    )
+    head = NOT_FULFILLED if len(violations) > 1 else NOT_FULFILLED_HERE
+    figure.supxlabel(f"{head}: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
 
 
 @figures.styled

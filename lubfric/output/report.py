@@ -51,6 +51,8 @@ OF_OUTPUT = {
     "min_film": "after",
 }
 
+# Caption of the picture of a curve of one point.
+CAPTION_OF_POINT = "Friction with its parts and its interval, load ratios and film of the point"
 # Heading of the column of the intervals of f.
 INTERVAL_OF_F = "95 % interval of f"
 # What follows the scene's own speed or ratio in the table of a curve.
@@ -133,7 +135,7 @@ def report_page(
         parts
         | {
             "name": escape(scene.name),
-            "curve": _pictures(contents, shows_answer=True),
+            "curve": _pictures(contents, shows_answer=True, caption=_caption_of_point(result)),
             "warnings": warnings_and_notes([*result.validity, *gap_notes(result)]),
             "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": _pictures(contents, shows_answer=False)
@@ -149,10 +151,16 @@ def gap_notes(result: CurveResult | TransientResult) -> list[str]:
     return [f"note: {gap.text}" for gap in result.gaps] if isinstance(result, TractionResult) else []
 
 
-def _pictures(contents: dict[str, bytes], *, shows_answer: bool) -> str:
-    """Return the pictures among ``contents`` that the page shows beside its answer, or at its end."""
+def _caption_of_point(result: CurveResult | TransientResult) -> str:
+    """Return the caption of the picture of a curve of one point; "" of any other result."""
+    return CAPTION_OF_POINT if isinstance(result, CurveResult) and len(result.points) == 1 else ""
+
+
+def _pictures(contents: dict[str, bytes], *, shows_answer: bool, caption: str = "") -> str:
+    """Return the pictures among ``contents`` that the page shows beside its answer, or at its end; ``caption``: of all of them, ""
+    for their own."""
     return "".join(
-        picture(contents[name], text) for name, text in captions(contents, shows_answer=shows_answer).items()
+        picture(contents[name], caption or text) for name, text in captions(contents, shows_answer=shows_answer).items()
     )
 
 

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 from scene_text import paper_scene
+from scipy.special import stdtrit
 
 import lubfric
 from lubfric._base.figures import field_image, new_figure
@@ -206,15 +208,48 @@ def test_the_key_says_whether_the_model_form_error_is_known_at_all_points(figure
     assert "not known in between" in labels and f"95 % interval{words}" in labels
 
 
-def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(figures):
-    one = {name: column[:1] for name, column in COLUMNS.items()} | {"model_error": np.array([0.9])}
+def rows_of(axes):
+    """The label of each row of a panel, and where its bar or line begins and ends along x."""
+    ends = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+    ends += [tuple(piece[:, 0]) for lines in axes.collections for piece in lines.get_segments()] if not ends else []
+    return dict(zip([label.get_text() for label in axes.get_yticklabels()], ends))
+
+
+def test_one_speed_is_drawn_with_its_parts_and_no_axis_of_speeds(figures):
+    """f and its parts from 0, the interval and that by each error alone, by Student's t; a part is no more than the whole."""
+    one = {name: column[:1] for name, column in COLUMNS.items()}
+    errors = {"model_error": 0.9, "numerical_error": 0.02, "sampling_error": 0.01, "sampling_freedom": 4.0}
+    errors |= {"input_error": 0.1, "input_error_low": 0.0, "input_error_high": 0.1}
+    one |= {name: np.array([value]) for name, value in errors.items()}
     plot_stribeck("x.png", one, "title", [()])
-    top, *_, bottom = figures[0].axes
-    figures[0].canvas.draw()
-    inside = [t for t in bottom.get_xticklabels() if 0.049 <= t.get_position()[0] <= 0.201 and t.get_text()]
-    assert len(inside) >= 2
-    low, high = (line.get_ydata() for line in top.lines if line.get_linestyle() == "--" and line.get_linewidth() < 0.7)
-    assert min(low) == pytest.approx(0.04) and max(high) == pytest.approx(0.06)
+    friction, interval, loads, films = figures[0].axes
+    labels = [axes.get_xlabel() for axes in figures[0].axes]
+    assert not any("speed" in label for label in labels) and figures[0].get_suptitle().endswith("U = 0.1 m/s")
+    load = one["contact_load"][0] + one["film_load"][0]
+    bars = rows_of(friction)
+    assert bars["friction coefficient"] == pytest.approx((0.0, 0.05))
+    assert bars["asperity friction"] == pytest.approx((0.0, one["boundary_force"][0] / load))
+    assert bars["fluid friction"] == pytest.approx((0.0, one["shear_force"][0] / load))
+    parts = rows_of(interval)
+    assert parts["95 % interval of f"] == parts["model-form error"] == pytest.approx((0.04, 0.06))
+    assert parts["numerical error"] == pytest.approx((0.049, 0.051))
+    t = stdtrit(4, 0.975)
+    assert parts["sampling error"] == pytest.approx((0.05 * (1 - 0.01 * t), 0.05 * (1 + 0.01 * t)))
+    assert parts["ranges of inputs"] == pytest.approx((0.05, 0.055)) and "input not given" not in parts
+    (share, rest) = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in loads.patches]
+    assert share[1] == rest[0] == pytest.approx(one["contact_load"][0] / load) and rest[1] == 1
+    assert "film thickness" in films.get_xlabel()
+
+
+@pytest.mark.parametrize("options", [PictureOptions(has_parts=False), PictureOptions(x_scale="log"), None])
+def test_what_is_chosen_of_the_picture_of_one_point(figures, options):
+    """Without the parts of the interval; with a scale, or a measured curve, over the speed as other curves."""
+    one = {name: column[:1] for name, column in COLUMNS.items()} | {"model_error": np.array([0.1])}
+    measured = lubfric.studies.Measured(np.array([0.05, 0.2]), np.array([0.05, 0.06])) if options is None else None
+    plot_stribeck("x.png", one, "title", [()], measured, options or PictureOptions())
+    is_point = options is not None and options.x_scale is None
+    assert ("speed" in figures[0].axes[-1].get_xlabel()) != is_point
+    assert not any("each error alone" in axes.get_xlabel() for axes in figures[0].axes)
 
 
 def test_a_traction_curve_is_drawn_by_its_table(figures):
@@ -724,3 +759,15 @@ def test_a_bar_of_colours_is_as_long_as_its_map(shape, place, along):
         assert getattr(drawn, end) == pytest.approx(getattr(of_map, end), abs=1e-6)
     gap = drawn.x0 - of_map.x1 if place == "right" else drawn.y0 - of_map.y1
     assert 0 < gap < 0.1
+
+
+@pytest.mark.parametrize("width", [0.178, 0.085])
+def test_a_picture_of_a_contact_has_no_empty_band(tmp_path, solved, width):
+    """Of the pixels: white rows at the edges are less than 4 mm high, and between the panels less than 8 % of the picture."""
+    (prepared, point) = solved
+    plot_contact(tmp_path / "c.png", drawn_contact(prepared, point), PictureOptions(width=width, dpi=60))
+    pixels = imread(tmp_path / "c.png")[..., :3].min(axis=2)
+    rows = np.flatnonzero((pixels < 0.98).any(axis=1))
+    height = pixels.shape[0]
+    assert max(rows[0], height - 1 - rows[-1]) * 25.4 / 60 < 4.0
+    assert np.diff(rows).max() < 0.08 * height

@@ -130,10 +130,13 @@ def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distingu
     rows = re.findall(r"<tr>(.*?)</tr>", part, re.DOTALL)[1:]
     for row, one in zip(rows, result.best(), strict=True):
         cells = re.findall(r"<td[^>]*>([^<]*)</td>", row)
-        assert cells[3] == str(one.row)
-        numbers = re.findall(r"no\. (\d+)", cells[4])
+        (number, interval, row_number, rivals) = cells[2:]
+        low, high = map(float, interval.split(" to "))
+        assert low <= float(number) <= high and float(number) == pytest.approx(one.value, rel=0.05)
+        assert row_number == str(one.row)
+        numbers = re.findall(r"no\. (\d+)", rivals)
         assert [int(number) for number in numbers] == [*one.rival_rows[:3], *sorted(one.rival_rows[3:])][: len(numbers)]
-        assert (cells[4] == "none") == (not one.rivals)
+        assert (rivals == "none") == (not one.rivals)
 
 
 @pytest.mark.parametrize("film", [1e-9, 5e-9])
