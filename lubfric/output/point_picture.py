@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # Choices, by looking at the figures.
-ROW_HEIGHT = 0.33  # inch: of a row of a panel, at the usual width
+HEIGHT_OF_ROW = 0.33  # inch: of a row of a panel, at the usual width
 PANEL_MARGIN = 0.75  # inch: of the labels of a panel
 KEY_MARGIN = 0.3  # inch: of a key above a panel
 BAR_HEIGHT = 0.6  # of a row
@@ -29,7 +29,7 @@ TICKS = 7  # of an axis of numbers of many digits, at most
 NARROW_TICKS = 3  # the same of a narrow picture
 ZOOM = 0.15  # of the length of the interval, beside it
 
-INTERVAL = "95 % interval of f"
+WHOLE_INTERVAL = "95 % interval of f"
 # Names of those parts of the interval in the picture that are no errors of their own name.
 PART_NAMES = {"not given": "input not given", "input": "ranges of inputs"}
 
@@ -48,7 +48,7 @@ def draw_point(columns: Mapping[str, np.ndarray], panels: list[str], options: Pi
         else:
             rows[name] = 1 if name == "load" else 2
     heights = [
-        ROW_HEIGHT * count + PANEL_MARGIN + KEY_MARGIN * (name in ("load", "film")) for name, count in rows.items()
+        HEIGHT_OF_ROW * count + PANEL_MARGIN + KEY_MARGIN * (name in ("load", "film")) for name, count in rows.items()
     ]
     figure = figures.new_figure(figsize=options.size(heights))
     axes = figure.subplots(len(rows), 1, squeeze=False, height_ratios=heights)[:, 0]
@@ -82,7 +82,7 @@ def _parts_of_interval(numbers: Mapping[str, float]) -> dict[str, tuple[float, f
     if not all(map(math.isfinite, ends)):
         return {}
     f = numbers["coefficient"]
-    intervals = {INTERVAL: ends}
+    intervals = {WHOLE_INTERVAL: ends}
     for name, part in PARTS.items():
         column = COLUMN_OF_ERROR[part.quantity]
         error = numbers.get(column, math.nan)
@@ -118,7 +118,9 @@ def _draw_friction(axes: Axes, numbers: Mapping[str, float], options: PictureOpt
     f = numbers["coefficient"]
     axes.errorbar(f, 0.0, xerr=[[f - low], [high - f]], fmt="o", color="k", ms=4, capsize=4, lw=1.2)
     axes.axvline(0.0, color=figures.GREY, lw=0.8)
-    axes.set_xlabel(figures.FRICTION_LABEL if math.isfinite(low) else f"{figures.FRICTION_LABEL}; {INTERVAL} not known")
+    axes.set_xlabel(
+        figures.FRICTION_LABEL if math.isfinite(low) else f"{figures.FRICTION_LABEL}; {WHOLE_INTERVAL} not known"
+    )
     lowest = min([value for value, _ in parts.values()] + [low if low < 0 else 0.0])
     axes.set_xlim(left=min(0.0, 1.1 * lowest))
 
@@ -129,7 +131,7 @@ def _draw_interval(axes: Axes, numbers: Mapping[str, float], options: PictureOpt
     for place, (low, high) in zip(_rows(axes, list(intervals)), intervals.values()):
         axes.hlines(place, low, high, color=figures.BLUE, lw=INTERVAL_WIDTH, alpha=0.4 if place else 0.9)
     axes.axvline(numbers["coefficient"], color="k", lw=0.8)
-    low, high = intervals[INTERVAL]
+    low, high = intervals[WHOLE_INTERVAL]
     room = ZOOM * (high - low)
     axes.locator_params(axis="x", nbins=NARROW_TICKS if options.is_narrow else TICKS)
     axes.set(

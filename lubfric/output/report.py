@@ -247,8 +247,8 @@ def curve_status(scene: Scene, curve: CurveResult) -> str:
             head = f"Converged: {head[0].lower()}{head[1:]}"
         points = [point for point in curve.points if point is not None]
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
-        missed = shortfalls(_missed(scene, curve), unknown, total, lambda index: _place(curve, index))
-        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *missed))
+        sentences = shortfalls(_missed(scene, curve), unknown, total, lambda index: _place(curve, index))
+        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *sentences))
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]
@@ -280,12 +280,12 @@ def orders_of_magnitude(count: int, total: int) -> list[str]:
     ]
 
 
-def shortfalls(missed: Sequence[MissedTolerance], unknown: int, total: int, place: Callable[[int], str]) -> list[str]:
-    """Return which tolerances of ``total`` solved points are ``missed`` and where (``place`` of a row), and how many points have an
+def shortfalls(exceeded: Sequence[MissedTolerance], unknown: int, total: int, place: Callable[[int], str]) -> list[str]:
+    """Return which tolerances of ``total`` solved points are ``exceeded`` and where (``place`` of a row), and how many points have an
     ``unknown`` interval, in sentences."""
-    sentences = [each.in_words(total, place) for each in missed]
-    if missed and not unknown:
-        sentences.append(f"The interval of f includes {'this error' if len(missed) == 1 else 'these errors'}.")
+    sentences = [each.in_words(total, place) for each in exceeded]
+    if exceeded and not unknown:
+        sentences.append(f"The interval of f includes {'this error' if len(exceeded) == 1 else 'these errors'}.")
     if unknown > 0:
         head = f"At {unknown} of {total} points the" if total > 1 else "The"
         sentences.append(f"{head} interval of f is not known.")

@@ -354,8 +354,8 @@ def study_status(result: StudyResult) -> str:
         head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
         unknown = int(np.isnan(result["interval_low"][np.isfinite(result["coefficient"])]).sum())
         warned = orders_of_magnitude(_largely_inexact(result), result.solved)
-        missed = shortfalls(_missed(result), unknown, result.solved, lambda row: f"at point {row + 1}")
-        return " ".join((*warned, head, *missed))
+        sentences = shortfalls(_missed(result), unknown, result.solved, lambda row: f"at point {row + 1}")
+        return " ".join((*warned, head, *sentences))
     failed = Counter(result.failures)
     reasons = "; ".join(f"{count} x {reason.removesuffix('.')}" for reason, count in failed.most_common(3))
     return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}."
@@ -423,7 +423,8 @@ def _table(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) ->
 
 def _number_cell(head: str, text: str) -> str:
     """Return a cell of a number in the column with this ``head``."""
-    style = UNBROKEN if head == INTERVAL_OF_F else TWO_LINES if "(" in text else ""
+    style = TWO_LINES if "(" in text else ""
+    style = UNBROKEN if head == INTERVAL_OF_F else style
     return f'<td class="number"{style}>{escape(text)}</td>'
 
 
