@@ -20,7 +20,6 @@ from .tables import (
 )
 from .work import (
     count_work,
-    counted_work,
     forecast_limit,
     limited_forecast,
     limited_work,

@@ -24,9 +24,6 @@ class WorkMeter:
     spent: float = 0.0
 
 
-# All work that this process counts, with a limit or without.
-_TOTAL = WorkMeter(limit=math.inf)
-
 _METER: ContextVar[WorkMeter | None] = ContextVar("work meter", default=None)
 
 # The most work [s] that a strip may be forecast to take.
@@ -91,14 +88,8 @@ def work_left() -> float:
     return math.inf if meter is None else max(meter.limit - meter.spent, 0.0)
 
 
-def counted_work() -> float:
-    """Return the work [s] that this process has counted so far, in all threads."""
-    return _TOTAL.spent
-
-
 def count_work(seconds: float) -> None:
     """Add counted work [s]. Raise `WorkLimitError` where that passes the limit of the caller."""
-    _TOTAL.spent += seconds
     meter = _METER.get()
     if meter is None:
         return

@@ -41,6 +41,7 @@ class ProgressLine:
         self._first: float | None = None
         self._begun = time.monotonic()
         self._bar: Any = None
+        self.draws = False  # on a terminal
         self._ended = threading.Event()
         self._lock = threading.RLock()
         self._thread: threading.Thread | None = None
@@ -53,10 +54,11 @@ class ProgressLine:
                 self._bar = import_module("tqdm").tqdm(
                     unit=f" {self.unit}", file=sys.stderr, leave=False, total=0, **form
                 )
+            self.draws = True
             self._thread = begin_beside(self._draw_often)
-            _active = self if self._thread is not None else None
         elif self.time_left is not None:
             self._thread = begin_beside(self._say_where_silent)
+        _active = self if self._thread is not None else None
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -64,9 +66,8 @@ class ProgressLine:
         if self._thread is not None:
             self._ended.set()
             self._thread.join()
-            if _active is self:
-                _active = None
-                self.clear()
+            self.clear()
+            _active = None
             if self._bar is not None:
                 self._bar.close()
 
@@ -77,7 +78,6 @@ class ProgressLine:
             self.done = done
             self.total = total
             self.part = ""
-            self._said = time.monotonic()
 
     @property
     def text(self) -> str:
@@ -87,16 +87,10 @@ class ProgressLine:
         text = f"{head}{in_words(passed)} passed"
         solved = self.done - (self._first or 0.0)
         if self.time_left is not None:
-            text += self._left
+            text += self.time_left.in_words()
         elif self.total and solved > 0:
             text += f", about {in_words(passed * (self.total - self.done) / solved)} left"
         return f"{text}; {self.part}" if self.part else text
-
-    @property
-    def _left(self) -> str:
-        """The time left by the estimates of the parts, as text; "" where there is none."""
-        seconds = 0.0 if self.time_left is None else self.time_left.seconds
-        return f", about {in_words(seconds)} left" if seconds > 0 else ""
 
     def draw(self) -> None:
         """Draw the line as it is now."""
@@ -108,12 +102,16 @@ class ProgressLine:
                 return
             self._bar.total = self.total or None
             self._bar.n = self.done
-            words = (self._left.removeprefix(", "), self.part)
+            left = "" if self.time_left is None else self.time_left.in_words()
+            words = (left.removeprefix(", "), self.part)
             self._bar.set_postfix_str("; ".join(filter(None, words)), refresh=False)
             self._bar.refresh()
 
     def clear(self) -> None:
-        """Remove the line, so that another can be written in its place."""
+        """Remove the line, so that another can be written in its place, which the next one on a file or a pipe waits for."""
+        self._said = time.monotonic()
+        if not self.draws:
+            return
         with self._lock, suppress(OSError, ValueError):
             if self._bar is not None:
                 self._bar.clear()
@@ -135,10 +133,10 @@ class ProgressLine:
 
 
 def state_part(text: str) -> bool:
-    """Put ``text``, how far a point is, on the line of the command that is running; return whether there is one."""
+    """Put ``text``, how far a point is, on the line of the command that is running; return whether a terminal shows it."""
     if _active is not None:
         _active.part = text
-    return _active is not None
+    return _active is not None and _active.draws
 
 
 def clear_active() -> None:

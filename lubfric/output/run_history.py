@@ -1,6 +1,5 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-import time
 from argparse import Namespace
 from typing import Any
 
@@ -11,7 +10,6 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
-from ..studies import in_words
 from ..time import RunEstimate, TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
 from . import commands
 from .describe import FILES_SECONDS
@@ -28,9 +26,6 @@ PART_OF_LINE = 0.04
 # What `TimeLeft` calls the work before the first step of a run.
 BEFORE_STEPS = "before the first step"
 
-# Time without an output after which a line says how far the run is [s]. A choice: less fills the screen.
-MOST_SILENCE = 10.0
-
 
 def run_history(scene: Scene, arguments: Namespace) -> None:
     """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
@@ -43,13 +38,12 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     reached = 0.0
     continues = False
     reported = 0.0
-    said_at = time.monotonic()
     due = commands.paced()
     failure: LubfricError | None = None
     names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
-        nonlocal reached, reported, said_at
+        nonlocal reached, reported
         if reached == 0.0:
             left.end(BEFORE_STEPS)
             for each in stored_before(now) if continues else ():
@@ -60,17 +54,11 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         share = 100.0 * now / duration
         shown.update(share, 100.0)
         is_end = now >= duration
-        silent = time.monotonic() - said_at > MOST_SILENCE
-        is_next = row is not None and (is_end or part >= reported + PART_OF_LINE)
-        if not (silent or is_next and due(end=is_end)):
+        if row is None or not (is_end or part >= reported + PART_OF_LINE) or not due(end=is_end):
             return
         reported = part
-        said_at = time.monotonic()
-        time_left = "" if is_end else f", about {in_words(left.seconds + FILES_SECONDS)} left"
+        time_left = "" if is_end else left.in_words(FILES_SECONDS)
         head = f"{share:.0f} % of the time{time_left}: t = {now:.5g} of {duration:g} s, "
-        if row is None:
-            commands.say(f"{head}between two outputs")
-            return
         speeds = {name: np.array([row[name]]) for name in ("entrainment_speed", "sliding_speed")}
         friction = f"U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:z.5f}"
         if not in_motion(speeds, fastest)[0]:
@@ -97,7 +85,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         assert estimate.run is not None
         run = estimate.run
         left = _time_left(scene, run)
-        with ProgressLine("%", left) as shown:
+        with ProgressLine("% of the time", left) as shown:
             shown.update(0.0, 100.0)
             result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
         try:

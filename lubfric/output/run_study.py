@@ -178,8 +178,7 @@ def _point_reports(plan: studies.StudyPlan, begun: float, time_left: TimeLeft | 
         of_this = f"of the point {outcome.seconds:.2f} s, " if isinstance(outcome, FrictionResult) else ""
         ends = f"wall-clock time {of_this}of the study so far {passed:.0f} s"
         if time_left is not None:
-            seconds = time_left.seconds
-            ends += f", about {studies.in_words(seconds)} left" if done < total and seconds > 0 else ""
+            ends += time_left.in_words() if done < total else ""
         elif 0 < batch[1] and done < total:
             ends += f", about {studies.in_words((batch[0] - begun) * (total - done) / batch[1])} left"
         place = _place(plan, index, outcome)

@@ -1,28 +1,26 @@
-"""The time left for the points of a study, from their estimates and from the work that is counted inside the point that is being
-solved."""
+"""The time left for the parts of a command, from their estimates and from what those that ended took."""
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from .._base import counted_work
+from .._base.processor_time import processor_time
+from ..studies import in_words
 
 # Time for which a process is taken to do a second of work in a second [s]. A choice: less makes the first estimates jump.
 USUAL_SECONDS = 5.0
-
-# What is left of a point that takes longer than its estimate, over what is done of it [-]. A choice: what is not known is stated as
-# some time, and not as none.
-LEAST_UNDONE = 0.1
 
 
 class TimeLeft:
     """Use as ``left = TimeLeft(expected, processes)``, then ``left.end(point)`` when a point ends, and ``left.seconds``.
 
-    ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``: that solve them. Of one
-    process the counted work says how far its point is; of several the time since a point ended. The ratio of counted to
-    estimated work of the points that ended, and of one more that is as estimated, corrects the estimates of the others.
+    ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``: that
+    solve them. What points take is the processor time of one process, whose ratio to the time that passes is measured; of
+    several it is the time that passes. The ratio of what the points that ended took to their estimates, with one more that
+    takes what is estimated, corrects the estimates of the others; those that are being solved raise it when they take more.
     """
 
     def __init__(
@@ -31,51 +29,86 @@ class TimeLeft:
         processes: int = 1,
         *,
         clock: Callable[[], float] = time.monotonic,
-        counted: Callable[[], float] = counted_work,
+        spent: Callable[[], float] = processor_time,
     ):
         self.expected: dict[Any, float] = dict(expected)
         self.processes = processes
         self._clock = clock
-        self._counted = counted
-        self._begun = clock()
-        self._last = self._begun  # when a point ended
-        self._first_work = counted()
-        self._last_work = self._first_work  # counted until then
-        self._ended = 0.0  # s, estimated, of the points that ended
+        self._spent = spent if processes == 1 else clock
+        self._first_clock = clock()
+        self._first_spent = self._spent()
+        self._begun: dict[Any, float] = {}  # when each point began that is being solved [s], by `_spent`
+        self._taken = 0.0  # s, of the points that ended
+        self._estimated = 0.0  # s, of the same
         self._usual = sum(self.expected.values()) / max(len(self.expected), 1)  # s, of a point that is as estimated
+        self._lock = threading.RLock()  # a line of progress is drawn on a thread of its own
+        self._begin()
 
     def end(self, point: Any) -> None:
         """Report that a ``point`` ended."""
-        estimate = self.expected.pop(point, None)
-        if estimate is not None:
-            self._ended += estimate
-            self._last = self._clock()
-            self._last_work = self._counted()
+        with self._lock:
+            if point not in self.expected:
+                return
+            self._estimated += self.expected.pop(point)
+            if point not in self._begun:  # the order is another one: it began in place of the last that began
+                point = next(reversed(self._begun))
+            self._taken += self._spent() - self._begun.pop(point)
+            self._begin()
 
     def omit(self, point: Any) -> None:
         """Report that a ``point`` is known, and takes no time."""
-        self.expected.pop(point, None)
+        with self._lock:
+            self.expected.pop(point, None)
+            self._begun.pop(point, None)
+            self._begin()
 
     def end_next(self) -> None:
         """Report that the next point ended, where it is not known which one."""
         if self.expected:
             self.end(next(iter(self.expected)))
 
+    def _begin(self) -> None:
+        """Let each process that is free begin the next point."""
+        for point in self.expected:
+            if len(self._begun) >= self.processes:
+                return
+            self._begun.setdefault(point, self._spent())
+
     @property
-    def seconds(self) -> float:
-        """The time left [s]; 0 where nothing is left."""
-        estimates = list(self.expected.values())
-        if not estimates:
-            return 0.0
+    def seconds(self) -> float | None:
+        """The time left [s]; None where more is spent than is estimated of all points, by what those that ended took."""
+        with self._lock:
+            return self._seconds()
+
+    def _seconds(self) -> float | None:
+        """Return `seconds`; call it with the lock."""
+        now = self._spent()
+        solving = {point: now - begun for point, begun in self._begun.items()}
+        total = self._estimated + sum(self.expected.values())
+        ratio = _ratio(self._taken + self._usual, self._estimated + self._usual)
+        if self._taken + sum(solving.values()) > ratio * total:
+            return None
+        estimated = self._estimated + sum(self.expected[point] for point in solving)
+        slower = _ratio(self._taken + sum(solving.values()) + self._usual, estimated + self._usual)
+        ratio = max(ratio, slower)
+        undone = [max(ratio * self.expected[point] - taken, 0.0) for point, taken in solving.items()]
+        waiting = ratio * sum(seconds for point, seconds in self.expected.items() if point not in solving)
+        left = max((sum(undone) + waiting) / self.processes, *undone, 0.0)
+        if left == 0.0 and self.expected:
+            return None
         if self.processes > 1:
-            usual = self.processes * USUAL_SECONDS
-            rate = (self._ended + usual) / (self._last - self._begun + USUAL_SECONDS)
-            waited = self._clock() - self._last
-            return max(sum(estimates) / rate - waited, LEAST_UNDONE * waited)
-        ended = self._last_work - self._first_work
-        ratio = (ended + self._usual) / (self._ended + self._usual) if self._ended > 0 else 1.0
-        done = self._counted() - self._last_work
-        of_point = max(ratio * estimates[0] - done, LEAST_UNDONE * done)
-        work = self._counted() - self._first_work
-        rate = (work + USUAL_SECONDS) / (self._clock() - self._begun + USUAL_SECONDS)
-        return (of_point + ratio * sum(estimates[1:])) / rate
+            return left
+        rate = (now - self._first_spent + USUAL_SECONDS) / (self._clock() - self._first_clock + USUAL_SECONDS)
+        return left / rate
+
+    def in_words(self, more: float = 0.0) -> str:
+        """Return the time left and ``more`` [s] as text to be appended; "" where nothing is left."""
+        if not self.expected:
+            return ""
+        seconds = self.seconds
+        return ", longer than estimated" if seconds is None else f", about {in_words(seconds + more)} left"
+
+
+def _ratio(taken: float, estimated: float) -> float:
+    """Return the ratio of two times [s]; 1 where nothing is estimated."""
+    return taken / estimated if estimated > 0 else 1.0
