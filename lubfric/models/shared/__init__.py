@@ -135,13 +135,11 @@ from .violation import (
     first_sentence,
     gathered,
     gathered_in_table,
-    gathered_texts,
     in_a_cell,
     is_note_text,
     numbers_in_words,
     refused,
     sentence,
     violations_of,
-    warnings_in_cell,
 )
 from .wording import is_near_zero, percent, percent_beside, percent_of_sides, sides_in_f, standard_error_in_words

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, TypeVar
 
 from ..._base import Renamed
 from ...errors import ValidityError
 from .wording import distinct_texts
 
-# The value in the text of a violation.
-_VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
+# A place of a point: its number, or its value on a curve.
+Place = TypeVar("Place", int, float)
+
 # What begins the last sentence of the text of a violation.
 RECOMMENDATION = " Recommendation"
 # What is between the texts of a cell.
@@ -121,6 +121,18 @@ class Violation(Renamed):
         return self.what, self.severe, self.is_note, self.value > self.limit
 
     @property
+    def is_below(self) -> bool:
+        """Whether the value is below a limit."""
+        return math.isfinite(self.limit) and not self.value > self.limit
+
+    @property
+    def head(self) -> str:
+        """What the `text` begins with: "not valid", "note" or "warning"."""
+        if self.severe:
+            return "not valid"
+        return "note" if self.is_note else "warning"
+
+    @property
     def value_in_words(self) -> str:
         """The value with three digits, or with as many as it needs to differ from the limit."""
         return self._beside_limit[0]
@@ -139,16 +151,17 @@ class Violation(Renamed):
         """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
         3 m/s)"; ``place``, ``place_of_recommendation``: where the consequence and the recommendation hold as they are
         stated, if not everywhere."""
-        head = "note" if self.is_note else "warning"
-        if self.severe:
-            head = "not valid"
+        return f"{self.head}: {self.statement(values, place, place_of_recommendation)}"
+
+    def statement(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
+        """Return the `text_of` without its `head`."""
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{limit}"
         where = f" {place_of_recommendation}" if place_of_recommendation else ""
         last = f"{RECOMMENDATION}{where}: {self.recommendation}." if self.recommendation else ""
         consequence = f"{place}: {self.consequence}" if place else self.consequence
-        return f"{head}: {self.what} is {numbers}. {sentence(consequence)}{last}"
+        return f"{self.what} is {numbers}. {sentence(consequence)}{last}"
 
 
 def sentence(text: str) -> str:
@@ -176,11 +189,6 @@ def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
     return () if checked is None else checked.validity
 
 
-def warnings_in_cell(cell: str) -> list[str]:
-    """Return the texts of a ``cell`` (`in_a_cell`) that are no notes."""
-    return [text for text in cell.split(TEXT_SEPARATOR) if text and not is_note_text(text)]
-
-
 def is_note_text(text: str) -> bool:
     """Return whether ``text``, of one violation or gathered over points, is that of a note."""
     return text.startswith("note: ") or ": note: " in text
@@ -205,24 +213,36 @@ def gathered(
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
-    groups: dict[tuple[str, bool, bool, bool], list[tuple[float, Violation]]] = {}
-    for value, violations in points:
-        for violation in violations:
-            groups.setdefault(violation.kind, []).append((value, violation))
     lines = []
-    for group in groups.values():
+    for group in _groups(points):
         (_, worst) = max(group, key=lambda pair: _distance(pair[1]))
         values = sorted(value for value, _ in group)
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
-            alike = (
-                sorted(value for value, violation in group if violation.consequence == worst.consequence),
-                sorted(value for value, violation in group if violation.recommendation == worst.recommendation),
-            )
+            alike = _alike(group, worst)
             places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
             lines.append(f"{at_values(values, unit, name)}: {worst.text_of(_from_to(group, unit), *places)}")
     return tuple(lines)
+
+
+def _groups(points: Iterable[tuple[Place, Iterable[Violation]]]) -> list[list[tuple[Place, Violation]]]:
+    """Return the violations of ``points``, pairs (place, violations there), in groups of one `Violation.kind`."""
+    groups: dict[tuple[str, bool, bool, bool], list[tuple[Place, Violation]]] = {}
+    for place, violations in points:
+        for violation in violations:
+            groups.setdefault(violation.kind, []).append((place, violation))
+    return list(groups.values())
+
+
+def _alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> tuple[list[Place], list[Place]]:
+    """Return the places of a ``group`` with the consequence of its ``worst`` violation, and those with its recommendation,
+    both sorted."""
+    pairs = list(group)
+    return (
+        sorted(place for place, violation in pairs if violation.consequence == worst.consequence),
+        sorted(place for place, violation in pairs if violation.recommendation == worst.recommendation),
+    )
 
 
 def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
@@ -241,67 +261,79 @@ class GatheredTexts:
 
     Attributes
     ----------
-    text : a sentence, or a few, of all these points
+    statement : what is violated, what that does and what to do, in sentences
+    place : the points, as text; "" of no point
     numbers : of these points, from 1
+    violation : that of the worst value; None: it is of no point
     """
 
-    text: str
-    numbers: tuple[int, ...]
+    statement: str
+    place: str = ""
+    numbers: tuple[int, ...] = ()
+    violation: Violation | None = None
+
+    @property
+    def is_note(self) -> bool:
+        """Whether it is a note."""
+        return self.violation is not None and self.violation.is_note
+
+    @property
+    def text(self) -> str:
+        """The place, the `Violation.head` unless it is that of a warning, and the statement."""
+        head = "" if self.violation is None else self.violation.head
+        return ": ".join(part for part in (self.place, head.removeprefix("warning"), self.statement) if part)
+
+    @property
+    def text_without_head(self) -> str:
+        """The place and the statement."""
+        return ": ".join(part for part in (self.place, self.statement) if part)
 
 
-def gathered_texts(cells: Sequence[str]) -> list[str]:
-    """Return the texts of `gathered_in_table`."""
-    return [each.text for each in gathered_in_table(cells)]
-
-
-def gathered_in_table(cells: Sequence[str]) -> list[GatheredTexts]:
-    """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
-    of each point (`in_a_cell`), with the point whose value is farthest beyond its limit; consequence and recommendation are those
-    of this value, with the points where they are the same, if not all. Points are named by their number, from 1."""
-    groups: dict[tuple[str, bool], dict[int, str]] = {}
-    for number, cell in enumerate(cells, 1):
-        for text in cell.split(TEXT_SEPARATOR) if cell else ():
-            (what, _, numbers) = text.partition(" is ")
-            groups.setdefault((what, ", below " in numbers.partition(". ")[0]), {})[number] = text
+def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts]:
+    """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of a
+    table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of this value,
+    with the points where they are the same, if not all. Points are named by their number, from 1."""
     lines = []
-    for (_, is_below), group in sorted(groups.items(), key=lambda item: len(item[1]), reverse=True):
-        matches = [(match, number) for number, text in group.items() if (match := _VALUE_IN_TEXT.search(text))]
-        values = sorted((float(match[1]), match[1], number) for match, number in matches)
-        text = next(iter(group.values()))
-        if len(values) == len(group):
-            (_, worst, at_worst) = values[0 if is_below else -1]
-            text = group[at_worst]
-        (head, consequence, recommendation) = _parts_of_text(text)
-        parts = {number: _parts_of_text(each) for number, each in group.items()}
-        alike = sorted(number for number, part in parts.items() if part[1] == consequence)
-        if len(alike) < len(group):
-            begin = consequence[:1] if consequence[1:2].isupper() else consequence[:1].lower()  # but of an abbreviation
-            consequence = f"{numbers_in_words(alike, len(cells))}: {begin}{consequence[1:]}"
-        advised = sorted(number for number, part in parts.items() if part[2] == recommendation)
-        if recommendation and len(advised) < len(group):
-            place = numbers_in_words(advised, len(cells)).lower()
-            recommendation = f"{RECOMMENDATION} {place}{recommendation.removeprefix(RECOMMENDATION)}"
-        if len(values) == len(group) and values[0][1] != values[-1][1]:
-            head = _with_range(head, values[0][1], values[-1][1], f" (at point {at_worst})", is_below=is_below)
-        place = numbers_in_words(sorted(group), len(cells))
-        text = f"{place}: {head.removeprefix('warning: ')}. {consequence}{recommendation}"
-        lines.append(GatheredTexts(text=text, numbers=tuple(sorted(group))))
+    groups = [dict(group) for group in _groups(enumerate(rows, 1))]
+    for group in sorted(groups, key=len, reverse=True):
+        (at_worst, worst) = _worst_in_table(group)
+        alike = _alike(group.items(), worst)
+        (place, advised) = (numbers_in_words(n, len(rows)) if len(n) < len(group) else "" for n in alike)
+        lines.append(
+            GatheredTexts(
+                statement=worst.statement(_range_in_table(group, at_worst), place, advised.lower()),
+                place=numbers_in_words(sorted(group), len(rows)),
+                numbers=tuple(sorted(group)),
+                violation=worst,
+            )
+        )
     return lines
 
 
-def _with_range(head: str, least: str, most: str, place: str, *, is_below: bool) -> str:
-    """Return the first sentence of a violation with the range of its values, and the ``place`` of the worst one."""
-    if is_below:
-        return head.replace(f" is {least}", f" is {least}{place} to {most}", 1)
-    return head.replace(f" is {most}", f" is {least} to {most}", 1).replace(", above ", f"{place}, above ", 1)
+def _in_order(group: dict[int, Violation]) -> list[tuple[int, Violation]]:
+    """Return the pairs (number, violation) of a ``group`` by the values as they are printed; [] where one is not finite."""
+    if not all(math.isfinite(violation.value) for violation in group.values()):
+        return []
+    return sorted(group.items(), key=lambda pair: (float(pair[1].value_in_words), pair[0]))
 
 
-def _parts_of_text(text: str) -> tuple[str, str, str]:
-    """Return the three sentences of the ``text`` of a violation: the first without its full stop, the last "" where there is
-    none."""
-    (head, _, others) = text.partition(". ")
-    (consequence, mark, recommendation) = others.partition(f"{RECOMMENDATION}: ")
-    return head, consequence, f"{mark}{recommendation}"
+def _worst_in_table(group: dict[int, Violation]) -> tuple[int, Violation]:
+    """Return the number and the violation whose value is farthest beyond its limit; the first where that is not known."""
+    ordered = _in_order(group) or list(group.items())[:1]
+    return ordered[0 if ordered[0][1].is_below else -1]
+
+
+def _range_in_table(group: dict[int, Violation], at_worst: int) -> str:
+    """Return the smallest and the largest value of a ``group`` with the number of the worst, or the one value of all."""
+    worst = group[at_worst]
+    ordered = _in_order(group)
+    ends = [ordered[end][1].value_in_words for end in (0, -1)] if ordered else []
+    if len({*ends}) < 2:
+        return f"{worst.value_in_words}{worst.spaced_unit}"
+    place = f" (at point {at_worst})"
+    if worst.is_below:
+        return f"{ends[0]}{place} to {ends[1]}{worst.spaced_unit}"
+    return f"{ends[0]} to {ends[1]}{worst.spaced_unit}{place if math.isfinite(worst.limit) else ''}"
 
 
 def numbers_in_words(numbers: list[int], count: int) -> str:
