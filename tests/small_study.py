@@ -22,6 +22,15 @@ def same(one, other):
         np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
+def violations_at(shape, *at_points):
+    """The violations of the points of a study of this shape: a tuple of each point, or none anywhere."""
+    violations = np.empty(shape, dtype=object)
+    violations.fill(())
+    for index, of_point in zip(np.ndindex(violations.shape), at_points):
+        violations[index] = of_point
+    return violations
+
+
 def slowness() -> float:
     """Processor seconds that a fixed piece of work of the kind that points do takes at this moment over what it took
     where forecasts were measured: in this unit, times of slow and of busy machines are those that are foretold."""

@@ -11,15 +11,13 @@ import numpy as np
 from .._base import FloatArray, __version__
 from ..estimate import PARTS
 from ..models.shared import (
-    NUMERICAL_ERROR,
-    SAMPLING_ERROR,
+    Assumption,
     GatheredTexts,
     UnmodelledEffect,
     alpha_of_points_in_words,
     first_sentence,
     half_width_of_error,
     is_near_zero,
-    is_note_text,
     numbers_in_words,
     peak_hertz_pressure,
     percent,
@@ -27,7 +25,6 @@ from ..models.shared import (
     sentence,
     sides_in_f,
     unmodelled_effects,
-    warnings_in_cell,
 )
 from ..quantities import CHOICES, COLUMN_OF_ERROR, COLUMNS, counted, worded_value
 from ..samples import is_measured, requests_patch
@@ -140,6 +137,9 @@ OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the co
 MOST_MEANS = 6
 CAPTION = "The results of the study"
 
+# Errors of f whose tolerances a list names the points of.
+OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR)
+
 
 @dataclass(frozen=True, kw_only=True)
 class PartOfError:
@@ -161,7 +161,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     import scipy
 
     warnings = numbered_warnings(result)
-    notes = [_without_kind(each.text) for each in result.gathered if is_note_text(each.text)]
+    notes = [each.text_without_head for each in result.gathered if each.is_note]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = (
@@ -219,14 +219,14 @@ def _counts_as_paragraph(result: StudyResult) -> str:
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
     """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which are of no
     point, then the assumptions that do not hold somewhere."""
-    warnings = [GatheredTexts(text=sentence(note), numbers=()) for note in result.plan.notes]
-    return [*warnings, *(each for each in result.gathered if not is_note_text(each.text))]
+    warnings = [GatheredTexts(statement=sentence(note)) for note in result.plan.notes]
+    return [*warnings, *(each for each in result.gathered if not each.is_note)]
 
 
 def counts_of_warnings(result: StudyResult) -> str:
     """Return at how many points of a study there are warnings and notes, as its tables have them, and what these are; "" where
     there are none."""
-    noted = {number for each in result.gathered if is_note_text(each.text) for number in each.numbers}
+    noted = {number for each in result.gathered if each.is_note for number in each.numbers}
     if not result.with_warnings and not noted:
         return ""
     notes = (
@@ -241,21 +241,18 @@ def warning_lines(result: StudyResult) -> list[str]:
     counts = counts_of_warnings(result)
     if not counts:
         return []
-    heads = [first_sentence(each.text) for each in result.gathered if not is_note_text(each.text)]
+    heads = [first_sentence(each.text) for each in result.gathered if not each.is_note]
     full = ", and report.html has them in full with what to do"
     return [f"{counts}{full}{':' if heads else '.'}", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 
 
-def _without_kind(text: str) -> str:
-    """Return the ``text`` of a note without the word that says so."""
-    return text.replace(": note: ", ": ", 1)
-
-
 def tolerance_lines(result: StudyResult) -> list[str]:
     """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
-    of_tolerances = (NUMERICAL_ERROR, SAMPLING_ERROR)
-    texts = [each.text for each in result.gathered if is_note_text(each.text)]
-    lines = [_without_kind(text) for text in texts if any(name in text for name in of_tolerances)]
+    lines = [
+        each.text_without_head
+        for each in result.gathered
+        if each.violation is not None and each.is_note and each.violation.assumption in OF_TOLERANCES
+    ]
     return [f"{line}{'' if line.startswith('At point') else ALL_IN_TABLE}" for line in lines]
 
 
@@ -367,8 +364,10 @@ def _missed(result: StudyResult) -> list[MissedTolerance]:
 
 def _largely_inexact(result: StudyResult) -> int:
     """Return at how many points of a study the numerical error of f is a warning."""
-    warnings = (warnings_in_cell(str(cell)) for cell in result.validity.flat)
-    return sum(any(NUMERICAL_ERROR in text for text in texts) for texts in warnings)
+    return sum(
+        any(each.assumption == Assumption.NUMERICAL_ERROR and not each.is_note for each in violations)
+        for violations in result.violations.flat
+    )
 
 
 def _range(key: str, values: np.ndarray) -> str:

@@ -17,7 +17,6 @@ from ..models.shared import (
     Assumption,
     Prepared,
     Violation,
-    in_a_cell,
     standard_error_in_words,
     student,
     violations_by_model_error,
@@ -34,6 +33,7 @@ SPEED = "speed"
 STATUS = "status"
 CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
+VIOLATIONS = "violations"
 MISSING = "not computed"
 ACCEPTED_MODEL_ERROR = "numerics.model_tolerance sets this limit; the interval of f includes the error"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
@@ -160,8 +160,8 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
 
 
 def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]:
-    """Return the numbers of a point by name, those of its uncertainty among them, and as text its status and the assumptions
-    that do not hold, by the ``numerics`` of its study."""
+    """Return the numbers of a point by name, those of its uncertainty among them, its status as text and the assumptions that
+    do not hold, by the ``numerics`` of its study."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
@@ -169,7 +169,7 @@ def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]
     numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
     notes = (*_missed_sampling_tolerance(outcome.uncertainty), *_accepted_model_error(outcome, numerics))
     violations = (*outcome.validity, *notes)
-    return {STATUS: outcome.report.status, VALIDITY: in_a_cell(violations), **numbers}
+    return {STATUS: outcome.report.status, VIOLATIONS: violations, **numbers}
 
 
 def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:

@@ -18,7 +18,7 @@ from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, methods_of
 from ..models import Model, models_that_may_answer, prepare
-from ..models.shared import GatheredTexts, gathered_in_table, warnings_in_cell
+from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell
 from ..quantities import COLUMN_OF_ERROR, NUMBERS
 from ..scene import Scene
 from .best import best, best_mean
@@ -30,7 +30,7 @@ from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, 
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_lines import plot
 from .study_table import StudyTable
-from .tables import columns_of_study, place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
@@ -62,14 +62,14 @@ class StudyResult(Renamed, Shown):
     columns : every number of a `FrictionResult` by name; NaN where a point failed
     status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
         numbers
-    validity : the assumptions that do not hold at a point, as text; "" where all hold. With ``numerics.accept`` this
-        marks the points that are no answers
+    violations : the assumptions that do not hold at a point, a tuple of `lubfric.Violation`. With ``numerics.accept``
+        these mark the points that are no answers
     """
 
     plan: StudyPlan
     columns: dict[str, np.ndarray]
     status: np.ndarray
-    validity: np.ndarray
+    violations: np.ndarray
     _RENAMED = {"cautioned": "with_warnings"}
 
     plot = plot
@@ -120,7 +120,15 @@ class StudyResult(Renamed, Shown):
     @property
     def with_warnings(self) -> int:
         """Number of points at which an assumption does not hold; notes do not count."""
-        return sum(bool(warnings_in_cell(str(cell))) for cell in self.validity.flat)
+        return sum(any(not violation.is_note for violation in at_point) for at_point in self.violations.flat)
+
+    @cached_property
+    def validity(self) -> np.ndarray:
+        """The assumptions that do not hold at each point, as text; "" where all hold."""
+        texts = np.empty(self.violations.shape, dtype=object)
+        for index in np.ndindex(*texts.shape):
+            texts[index] = in_a_cell(self.violations[index])
+        return texts
 
     @property
     def missing(self) -> int:
@@ -130,7 +138,7 @@ class StudyResult(Renamed, Shown):
     @cached_property
     def gathered(self) -> tuple[GatheredTexts, ...]:
         """One text for each assumption that does not hold somewhere, with the numbers of its points, from 1."""
-        return tuple(gathered_in_table([str(cell) for cell in columns_of_study(self)[VALIDITY]]))
+        return tuple(gathered_in_table(self.violations[self.status != UNUSED].tolist()))
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name in (STATUS, VALIDITY):
@@ -390,12 +398,12 @@ def _keep(store: Store, key: str, record: Any) -> None:
 
 def result_of_table(table: StudyTable) -> StudyResult:
     """Return the result of a ``table``."""
-    columns, status, validity = table.cut()
+    columns, status, violations = table.cut()
     names = [name for name in NUMBERS if name in columns or name != SPEED or table.plan.chooses_speeds]
     names += [name for name in COLUMNS_OF_ERRORS if name not in names]
     missing = np.full(status.shape, np.nan)
     ordered = {name: columns.get(name, missing) for name in names}
-    return StudyResult(table.plan, ordered | columns, status, validity)
+    return StudyResult(table.plan, ordered | columns, status, violations)
 
 
 def has_study(folder: str | Path) -> bool:

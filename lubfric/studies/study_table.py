@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from .choose import MOST_CHOSEN_SPEEDS
-from .points import MISSING, SPEED, STATUS, UNUSED, VALIDITY, Outcome, row_of
+from .points import MISSING, SPEED, STATUS, UNUSED, VIOLATIONS, Outcome, row_of
 from .store import CHOSEN, OUTCOME, Store, digest, point_key
 
 
@@ -16,7 +16,8 @@ class StudyTable:
     Attributes
     ----------
     columns : numbers by name; NaN where a point failed, or is not computed
-    status, validity : as text
+    status : as text
+    violations : a tuple of `lubfric.Violation` for each point
     solved : number of points that have an outcome, equal ones of several curves counted once
     ended : keys of the curves that chose all their speeds
     """
@@ -28,7 +29,8 @@ class StudyTable:
             self.width = MOST_CHOSEN_SPEEDS
         self.columns: dict[str, np.ndarray] = {}
         self.status = np.full(self._shape, UNUSED if plan.chooses_speeds else MISSING, dtype=object)
-        self.validity = np.full(self._shape, "", dtype=object)
+        self.violations = np.empty(self._shape, dtype=object)
+        self.violations.fill(())
         self.solved = 0
         self.ended: set[str] = set()
         self._curves: dict[str, list[int]] = {}
@@ -48,9 +50,9 @@ class StudyTable:
         self.solved += 1
         for curve, place in places:
             self.status[curve, place] = row[STATUS]
-            self.validity[curve, place] = row.get(VALIDITY, "")
+            self.violations[curve, place] = row.get(VIOLATIONS, ())
         for name, value in row.items():
-            if name in (STATUS, VALIDITY) or name == SPEED and not self.plan.chooses_speeds:
+            if name in (STATUS, VIOLATIONS) or name == SPEED and not self.plan.chooses_speeds:
                 continue
             if name not in self.columns:
                 self.columns[name] = np.full(self._shape, np.nan)
@@ -70,7 +72,7 @@ class StudyTable:
         self.solved -= len(self._chosen.pop(key, ()))
         for curve in self._curves[key]:
             self.status[curve] = UNUSED
-            self.validity[curve] = ""
+            self.violations[curve].fill(())
             for column in self.columns.values():
                 column[curve] = np.nan
 
@@ -131,7 +133,7 @@ class StudyTable:
         return along if self.plan.paired else (*along, place)
 
     def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-        """Return (columns, status, validity) in the shape of the study, without places that no curve used; a curve that
+        """Return (columns, status, violations) in the shape of the study, without places that no curve used; a curve that
         has not ended has one place that is not computed."""
         if self.plan.chooses_speeds:
             for key, curves in self._curves.items():
@@ -141,4 +143,4 @@ class StudyTable:
         used = 1 + int(np.flatnonzero((self.status != UNUSED).any(axis=0)).max(initial=0))
         shape = self.plan.curve_shape if self.plan.paired else (*self.plan.curve_shape, used)
         columns = {name: column[:, :used].reshape(shape) for name, column in self.columns.items()}
-        return columns, self.status[:, :used].reshape(shape), self.validity[:, :used].reshape(shape)
+        return columns, self.status[:, :used].reshape(shape), self.violations[:, :used].reshape(shape)

@@ -10,6 +10,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from scene_text import paper_scene
+from small_study import violations_at
 
 import lubfric
 from lubfric.output import pictures, run_curve, study_pictures
@@ -125,7 +126,7 @@ def made_study(vary, speeds):
     f = np.linspace(0.03, 0.12, int(np.prod(plan.shape))).reshape(plan.shape)
     columns = {"coefficient": f, "interval_low": 0.8 * f, "interval_high": 1.3 * f}
     columns |= {"power_loss": 10 * f, "power_loss_low": 8 * f, "power_loss_high": 13 * f}
-    return StudyResult(plan, columns, np.full(f.shape, "converged", dtype=object), np.full(f.shape, "", dtype=object))
+    return StudyResult(plan, columns, np.full(f.shape, "converged", dtype=object), violations_at(f.shape))
 
 
 @pytest.fixture

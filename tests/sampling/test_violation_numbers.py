@@ -12,8 +12,7 @@ from lubfric.estimate.uncertainty import Uncertainty
 from lubfric.models.shared import (
     Violation,
     gathered,
-    gathered_texts,
-    in_a_cell,
+    gathered_in_table,
     percent_beside,
     violations_by_model_error,
 )
@@ -84,8 +83,8 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
         "at 2 speeds, 1 and 2 m/s: warning: lambda ratio is 0.03 (at 1 m/s) to 0.04 (at 2 m/s), below 0.05. Why.",
         "at 3 m/s: warning: lambda ratio is 5, above 3. Why.",
     )
-    cells = [in_a_cell(at(*pair)) for pair in ((0.03, 0.05), (5.0, 3.0))]
-    assert gathered_texts(cells) == [
+    rows = [at(*pair) for pair in ((0.03, 0.05), (5.0, 3.0))]
+    assert [each.text for each in gathered_in_table(rows)] == [
         "At point 1: lambda ratio is 0.03, below 0.05. Why.",
         "At point 2: lambda ratio is 5, above 3. Why.",
     ]

@@ -15,7 +15,7 @@ from lubfric.models.shared import (
     Heat,
     Violation,
     gathered,
-    gathered_texts,
+    gathered_in_table,
     in_a_cell,
     is_note_text,
     sentence,
@@ -28,7 +28,6 @@ from lubfric.models.shared import (
     violations_by_pressure,
     violations_by_shear,
     violations_by_thickness,
-    warnings_in_cell,
 )
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
@@ -217,8 +216,8 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     slower, faster = (replace(entry(value), consequence=f"it takes {value} s") for value in (8.69, 5.2))
     (text,) = gathered([(0.1, (slower,)), (3.0, (faster,))])
     assert "above 5 %. At 0.1 m/s: it takes 8.69 s." in text  # of the one point that has these numbers
-    (text,) = gathered_texts([in_a_cell([faster]), in_a_cell([slower])])
-    assert text.startswith(
+    (in_table,) = gathered_in_table([[faster], [slower]])
+    assert in_table.text.startswith(
         "At points 1 and 2: slip is 5.2 to 8.69 % (at point 2), above 5 %. At point 2: it takes 8.69 s."
     )
     points = [(0.1, (entry(8.0),)), (0.3, (replace(entry(7.0), recommendation="more"),))]
@@ -227,8 +226,8 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     points += [(0.2, (entry(9.0),)), (0.4, (replace(entry(6.0), consequence="it sticks"),))]
     (text,) = gathered(points)
     assert text.endswith("At 3 speeds, 0.1 to 0.3 m/s: it slides. Recommendation at 3 speeds, 0.1 to 0.4 m/s: less.")
-    (text,) = gathered_texts([in_a_cell(violations) for _, violations in points])
-    assert text.endswith("above 5 %. At points 1 to 3: it slides. Recommendation at points 1, 3 and 4: less.")
+    (in_table,) = gathered_in_table([violations for _, violations in points])
+    assert in_table.text.endswith("above 5 %. At points 1 to 3: it slides. Recommendation at points 1, 3 and 4: less.")
     (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
     assert "slip is 8 %, above" in alike
 
@@ -239,7 +238,7 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
 def test_a_warning_of_a_table_quotes_the_value_farthest_beyond_its_limit(values, limit, worst):
     """Above a limit that is the largest value, below one the smallest."""
     entries = [replace(entry(value), limit=limit, consequence=f"it takes {value} s") for value in values]
-    (text,) = gathered_texts([in_a_cell([each]) for each in entries])
+    text = gathered_in_table([[each] for each in entries])[0].text
     assert f"At point {worst}: it takes {values[worst - 1]} s" in text
     is_below = limit > max(values) or ", below " in text
     place = f" (at point {worst})"
@@ -257,15 +256,13 @@ def test_a_warning_of_a_table_quotes_the_value_farthest_beyond_its_limit(values,
     ],
 )
 def test_warnings_of_a_table_name_their_points(places, words):
-    cells = [in_a_cell([entry(5.0 + n)] if n in places else []) for n in range(1, 6)]
-    (text,) = gathered_texts(cells)
-    assert text.startswith(f"{words}, above 5 %. It slides.")
+    (gathered_here,) = gathered_in_table([[entry(5.0 + n)] if n in places else [] for n in range(1, 6)])
+    assert gathered_here.numbers == places and gathered_here.text.startswith(f"{words}, above 5 %. It slides.")
 
 
 def test_warnings_at_many_scattered_points_name_the_worst_and_how_many_there_are():
-    cells = [in_a_cell([entry(6.0 + (n == 7))] if n % 2 else []) for n in range(41)]
-    (text,) = gathered_texts(cells)
-    assert text.startswith("At 20 of 41 points: slip is 6 to 7 % (at point 8), above 5 %.")
+    (gathered_here,) = gathered_in_table([[entry(6.0 + (n == 7))] if n % 2 else [] for n in range(41)])
+    assert gathered_here.text.startswith("At 20 of 41 points: slip is 6 to 7 % (at point 8), above 5 %.")
 
 
 def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
@@ -285,7 +282,8 @@ def test_notes_are_apart_from_warnings():
     assert note.text == "note: slip is 7 %, above 5 %. It slides."
     texts = gathered([(0.1, (entry(8.0),)), (0.2, (note,))])
     assert [is_note_text(text) for text in texts] == [False, True]
-    assert warnings_in_cell(in_a_cell([note, entry(8.0)])) == [entry(8.0).text] and not warnings_in_cell("")
+    assert [each.is_note for each in gathered_in_table([[note, entry(8.0)]])] == [True, False]
+    assert in_a_cell([note, entry(8.0)]) == f"{note.text} | {entry(8.0).text}" and not in_a_cell([])
 
 
 @pytest.mark.parametrize("coefficient, is_note", [(None, False), (0.05, True), ("f_b", True)])

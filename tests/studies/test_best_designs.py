@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_study import SCENE
+from small_study import SCENE, violations_at
 
 import lubfric
 from lubfric.output import best_designs, study_pictures, study_report
@@ -27,7 +27,7 @@ def made(f, half_width, scene=SCENE, **plan):
     columns |= {"power_loss": 10 * f, "power_loss_low": 10 * (f - half_width), "power_loss_high": 10 * (f + half_width)}
     columns |= {"film_load": np.ones(planned.shape), "model_error": half_width / np.abs(f)}
     numbers = dict.fromkeys(lubfric.study(SCENE, {}, [0.3]).columns, np.zeros(planned.shape)) | columns
-    return StudyResult(planned, numbers, np.full(planned.shape, "converged"), np.full(planned.shape, "", dtype=object))
+    return StudyResult(planned, numbers, np.full(planned.shape, "converged"), violations_at(planned.shape))
 
 
 RANDOM = np.random.default_rng(3)

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from small_study import SCENE, same
+from small_study import SCENE, same, violations_at
 
 import lubfric
 from lubfric.output import main, report
@@ -379,7 +379,7 @@ def stand_in(model_error=0.4):
     columns = {name: np.full(3, model_error) for name in ("interval_low", "interval_high", "model_error")}
     status = np.array(["converged"] * 3, dtype=object)
     columns |= {"coefficient": f, "power_loss": f}
-    return StudyResult(HOT, columns, status, np.array([""] * 3, dtype=object))
+    return StudyResult(HOT, columns, status, violations_at(3))
 
 
 def test_a_table_without_positions_is_drawn_over_the_number_of_its_points():

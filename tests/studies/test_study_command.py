@@ -16,10 +16,12 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.stats import t as student
 from small_study import SCENE as SMALL
+from small_study import violations_at
 
 import lubfric
 from lubfric import studies
 from lubfric._base.progress import report_progress
+from lubfric.models.shared import violations_by_numerical_error
 from lubfric.output import main, run_study, study_pictures, study_report
 from lubfric.studies import result as study_result
 
@@ -83,6 +85,9 @@ def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     assert (tmp_path / "study.png").stat().st_size > 5000 and len(study_report.answer_lines(result)) == 5
 
 
+SLIP = lubfric.Violation(what="slip", value=3.0, limit=5.0, unit="", consequence="why", recommendation="")
+
+
 def numbered(vary, coefficient):
     """A study of SMALL at one speed with made numbers, f by ``coefficient`` of what is varied."""
     plan = lubfric.plan_study(SMALL, vary, [0.3])
@@ -91,7 +96,7 @@ def numbered(vary, coefficient):
         f[place] = coefficient(scene)
     names = list(lubfric.study(SMALL, {}, [0.3]).columns)
     columns = dict.fromkeys(names, np.zeros(f.shape)) | {"coefficient": f, "film_load": np.ones(f.shape)}
-    return studies.StudyResult(plan, columns, np.full(f.shape, "converged"), np.full(f.shape, ""))
+    return studies.StudyResult(plan, columns, np.full(f.shape, "converged"), violations_at(f.shape))
 
 
 def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
@@ -132,7 +137,7 @@ def test_shares_of_a_table_of_points_are_those_of_its_columns():
     f = np.array([load**-1.0 * speed**0.5 for load, speed in pairs])
     columns = lubfric.study(SMALL, {}, [0.3]).columns
     columns = dict.fromkeys(columns, np.zeros(f.shape)) | {"coefficient": f}
-    result = studies.StudyResult(plan, columns, np.full(f.shape, "converged"), np.full(f.shape, ""))
+    result = studies.StudyResult(plan, columns, np.full(f.shape, "converged"), violations_at(f.shape))
     effects = studies.main_effects(result)
     assert list(effects) == ["bodies.load", "speed"]
     assert [effect.share for effect in effects.values()] == pytest.approx([0.8, 0.2])
@@ -308,14 +313,14 @@ def test_points_that_miss_the_sampling_tolerance_are_named_once(tmp_path, capsys
 
 def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
     result = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
-    cell = "note: estimated numerical error of f is 7 %, above 5 %. It is in the interval."
-    cells = np.array(["", cell, cell]).reshape(result.validity.shape)
-    (line,) = study_report.tolerance_lines(replace(result, validity=cells))
+    (note,) = violations_by_numerical_error(0.07, 0.05, "less")
+    violations = violations_at(result.status.shape, (), (note,), (note,))
+    (line,) = study_report.tolerance_lines(replace(result, violations=violations))
     assert line.startswith("At points 2 and 3: estimated numerical error of f is 7 %, above 5 %.")
     assert "study.csv" not in line
     many = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
-    every_second = np.array(["", cell] * 20).reshape(many.validity.shape)
-    (line,) = study_report.tolerance_lines(replace(many, validity=every_second))
+    every_second = violations_at(many.status.shape, *[(), (note,)] * 20)
+    (line,) = study_report.tolerance_lines(replace(many, violations=every_second))
     assert "At 20 of 40 points: " in line and line.endswith("column validity of study.csv has all of them.")
 
 
@@ -389,11 +394,11 @@ def test_texts_of_a_study_are_gathered_once_for_console_and_report(monkeypatch):
     gather = study_result.gathered_in_table
     monkeypatch.setattr(study_result, "gathered_in_table", lambda texts: cells.append(texts) or gather(texts))
     result = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.1)
-    result = replace(result, validity=np.full(result.status.shape, "warning: slip is 3, below 5. Why."))
+    result = replace(result, violations=violations_at(result.status.shape, *[(SLIP,)] * 2))
     page = study_report.study_page(result, {}, []).decode()
     assert "slip is 3" in page and study_report.warning_lines(result) and study_report.tolerance_lines(result) == []
     assert len(cells) == 1
-    assert not study_report.warning_lines(replace(result, validity=np.full(result.status.shape, "")))
+    assert not study_report.warning_lines(replace(result, violations=violations_at(result.status.shape)))
 
 
 @pytest.mark.parametrize("model_tolerance", [1e-3, 1.0])
@@ -420,9 +425,10 @@ def test_points_that_share_a_reason_are_one_line_with_the_worst():
     """On the console, and numbered in the report, where each row of the table has the numbers of its warnings."""
     result = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
     pressures = [1.2 + 0.01 * n for n in range(40)]
-    cells = [f"warning: film pressure is {p:.3g} GPa, above 1 GPa. Why. Recommendation: less." for p in pressures]
-    cells = [f"{cell} | warning: slip is 3, below 5. Why." if n in (4, 7) else cell for n, cell in enumerate(cells)]
-    result = replace(result, validity=np.array(cells).reshape(result.validity.shape))
+    known = {"limit": 1.0, "unit": "GPa", "consequence": "why", "recommendation": "less"}
+    warnings = [lubfric.Violation(what="film pressure", value=pressure, **known) for pressure in pressures]
+    at_points = [(warning, SLIP) if n in (4, 7) else (warning,) for n, warning in enumerate(warnings)]
+    result = replace(result, violations=violations_at(result.status.shape, *at_points))
     head, *lines = study_report.warning_lines(result)
     assert head.startswith("warnings at 40 of 40 points; study.csv")
     assert [line.strip() for line in lines] == [

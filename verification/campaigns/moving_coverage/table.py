@@ -116,8 +116,8 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     return {
         "f": parts.numbers["coefficient"],
         "change": cells.change,
-        "sampling": parts.sampling_error.value,
-        "freedom": parts.sampling_error.freedom,
+        "sampling": parts.errors.sampling_error.value,
+        "freedom": parts.errors.sampling_error.freedom,
         "strips": len(pairs),
         "steps": places.friction.shape[0],
         "work": sum(strip.work for strip in strips),
