@@ -97,8 +97,8 @@ def _checked_address(address: str) -> tuple[str, int]:
 
 
 def _client(distributed: Any, address: str) -> Any:
-    """Return a Dask client. Its thread was once not started, and waited for without end: so it is made in another one, and
-    waited for `LONGEST_START`."""
+    """Return a Dask client. Its thread was once not started, and waited for without end: so it is made in another one,
+    and waited for `LONGEST_START`."""
     ended: SimpleQueue[Any] = SimpleQueue()
 
     def make() -> None:
@@ -129,10 +129,10 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]]) -> Iterat
     has ended.
 
     ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`, which holds `IN_FLIGHT` jobs at
-    most at a time. A job must pickle (a `functools.partial` of what can be imported), and must catch what it may rightly
-    raise. Any other exception is an error of the program: jobs not yet begun are cancelled, and it is raised. A *worker*
-    or a scheduler may be lost: killed, or its machine gone. Then its jobs go to the executor again, and are done here if
-    it takes them no more or loses them `ATTEMPTS` times.
+    most at a time. A job must pickle (a `functools.partial` of what can be imported), and must catch what it may
+    rightly raise. Any other exception is an error of the program: jobs not yet begun are cancelled, and it is raised. A
+    *worker* or a scheduler may be lost: killed, or its machine gone. Then its jobs go to the executor again, and are
+    done here if it takes them no more or loses them `ATTEMPTS` times.
     """
     if executor is None:
         for job in jobs:
@@ -181,8 +181,8 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]]) -> Iterat
 
 
 def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any, ProcessorTime]:
-    """Return (True, the values) or (False, the exception), and the processor time: distinguishes errors of a job from those
-    of the executor."""
+    """Return (True, the values) or (False, the exception), and the processor time: distinguishes errors of a job from
+    those of the executor."""
     with reported_time() as spent:
         try:
             done = True
@@ -217,7 +217,8 @@ def processors() -> int:
 
 
 def checked_workers(workers: int, executor: Any) -> int:
-    """Return the number of processes; raises `InputError` for a wrong one, and for one together with an ``executor``."""
+    """Return the number of processes; raises `InputError` for a wrong one, and for one together with an
+    ``executor``."""
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     if workers > 1 and executor is not None:
         raise InputError(" and an executor are given", "workers", "one of the two")
@@ -226,8 +227,8 @@ def checked_workers(workers: int, executor: Any) -> int:
 
 @contextmanager
 def pool(workers: int) -> Iterator[ProcessPoolExecutor | None]:
-    """Yield an executor of ``workers`` processes, which start at once. They end with this process, however it ends. None for
-    one worker: then this process does the work itself."""
+    """Yield an executor of ``workers`` processes, which start at once. They end with this process, however it ends.
+    None for one worker: then this process does the work itself."""
     if workers == 1:
         yield None
         return

@@ -51,8 +51,8 @@ def plain(value: Any) -> Any:
 
 
 def read_json(path: Path, recommendation: str) -> Any:
-    """Return what is in a JSON file. Raises `InputError`, which ends with the ``recommendation``, if it cannot be read, is cut
-    off, nested too deeply or binary."""
+    """Return what is in a JSON file. Raises `InputError`, which ends with the ``recommendation``, if it cannot be read,
+    is cut off, nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
         raise InputError(f"{path} is not a file; {recommendation}")
     try:
@@ -90,8 +90,8 @@ class Columns(dict[str, Any]):
 
 
 def read_table(path: Path, content: bytes | None = None) -> Columns:
-    """Return the columns that `table_bytes` wrote, by name; an empty cell of numbers is NaN. ``content``: that of the file ``path``
-    where it is not yet there. Raises `InputError` for a damaged table or another one."""
+    """Return the columns that `table_bytes` wrote, by name; an empty cell of numbers is NaN. ``content``: that of the
+    file ``path`` where it is not yet there. Raises `InputError` for a damaged table or another one."""
     try:
         text = (Path(path).read_bytes() if content is None else content).decode()
         heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
@@ -288,8 +288,8 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
 
 
 def _separator(line: str) -> str:
-    """Return what separates the fields of a line: a semicolon or tab that it has, two blanks where it has no comma, else
-    a comma."""
+    """Return what separates the fields of a line: a semicolon or tab that it has, two blanks where it has no comma,
+    else a comma."""
     marks = (";", "\t") if "," in line or BLANKS not in line.strip() else (";", "\t", BLANKS)
     return next((mark for mark in marks if mark in line.strip(" ")), ",")
 

@@ -104,7 +104,8 @@ def number(
 ) -> float:
     """Return ``value`` as a finite real number with ``above < value``, ``minimum <= value <= maximum``.
 
-    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `SMALLEST_NUMBER`.
+    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least
+    `SMALLEST_NUMBER`.
     """
     return _within(name, value, unit, above, minimum, maximum, SMALLEST_NUMBER if unit in SANE else 0.0)
 
@@ -116,7 +117,8 @@ def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum:
 
 
 def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
-    """Return ``value`` as a finite number above ``above``, in [minimum, maximum], and at least ``least`` in size unless it is 0."""
+    """Return ``value`` as a finite number above ``above``, in [minimum, maximum], and at least ``least`` in size unless
+    it is 0."""
     largest = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     minimum = max(minimum, -largest)
     maximum = min(maximum, largest)
@@ -283,7 +285,8 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
 
 
 def _odd_entry(value: Any, depth: int) -> str:
-    """Return the first entry of a list that is no number but that NumPy would make one: True, False or a masked value."""
+    """Return the first entry of a list that is no number but that NumPy would make one: True, False or a masked
+    value."""
     if isinstance(value, (list, tuple)) and depth > 0:
         return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
     if isinstance(value, (bool, np.bool_)):

@@ -32,8 +32,8 @@ _MOST_FORECAST: ContextVar[float] = ContextVar("most forecast work", default=mat
 
 @contextmanager
 def limited_work(limit: float) -> Iterator[WorkMeter]:
-    """Limit the work [s] that is counted inside, in this thread. The limit replaces an outer one, whose meter adds this work
-    afterwards and cannot stop it."""
+    """Limit the work [s] that is counted inside, in this thread. The limit replaces an outer one, whose meter adds this
+    work afterwards and cannot stop it."""
     outer = _METER.get()
     meter = WorkMeter(limit=limit)
     token = _METER.set(meter)
@@ -47,8 +47,8 @@ def limited_work(limit: float) -> Iterator[WorkMeter]:
 
 @contextmanager
 def limited_forecast(limit: float) -> Iterator[None]:
-    """Limit the work [s] that the first strip of a point inside may be forecast to take: it ends with `TooCostlyError` as soon as its
-    first steps forecast more."""
+    """Limit the work [s] that the first strip of a point inside may be forecast to take: it ends with `TooCostlyError`
+    as soon as its first steps forecast more."""
     token = _MOST_FORECAST.set(limit)
     try:
         yield
@@ -73,7 +73,8 @@ def unlimited_work() -> Iterator[None]:
 
 @contextmanager
 def may_stay_unsolved() -> Iterator[None]:
-    """Leave a solve inside without a result where it does not converge. A limit of work that it passes ends the caller too."""
+    """Leave a solve inside without a result where it does not converge. A limit of work that it passes ends the caller
+    too."""
     try:
         yield
     except WorkLimitError:
@@ -99,7 +100,8 @@ def count_work(seconds: float) -> None:
 
 
 def work_apart_from_limit(make: Callable[[], T]) -> tuple[T, float]:
-    """Return what ``make`` gives, and the work [s] that it counts; the limit of the caller neither counts nor ends it."""
+    """Return what ``make`` gives, and the work [s] that it counts; the limit of the caller neither counts nor ends
+    it."""
     with unlimited_work(), limited_work(math.inf) as meter:
         return make(), meter.spent
 

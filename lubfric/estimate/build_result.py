@@ -36,8 +36,8 @@ def result_of(
 ) -> FrictionResult:
     """Return the result of the solution that was chosen at ``speed`` [m/s].
 
-    ``begun``: the starting time, by `time.perf_counter`; ``with_fine_fields``: whether its fields are solved again on cells fine
-    enough to look at. Raises `InputError` where f is not finite.
+    ``begun``: the starting time, by `time.perf_counter`; ``with_fine_fields``: whether its fields are solved again on
+    cells fine enough to look at. Raises `InputError` where f is not finite.
     """
     scene = prepared.scene
     answer = choice.solution.answer()
@@ -120,7 +120,8 @@ def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violat
 def _power_loss(
     scene: Scene, speed: float, *, model: Model, answer: ModelAnswer, numbers: dict[str, Any], uncertainty: Uncertainty
 ) -> PowerLoss:
-    """Return the power loss of the ``answer`` of ``model`` at ``speed`` [m/s]; its ``numbers`` have the lambda ratio."""
+    """Return the power loss of the ``answer`` of ``model`` at ``speed`` [m/s]; its ``numbers`` have the lambda
+    ratio."""
     return power_loss_of(
         scene,
         speed=speed,
@@ -141,7 +142,8 @@ def _methods(prepared: Prepared, choice: Choice, numbers: dict[str, Any], uncert
 
 
 def _method_use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:
-    """Return what the ``numbers`` of the answer show of the methods of ``model``, which answers or is compared with it."""
+    """Return what the ``numbers`` of the answer show of the methods of ``model``, which answers or is compared with
+    it."""
     return MethodUse(
         model=model,
         has_contact=numbers["contact_load"] > 0,
@@ -157,8 +159,8 @@ def _method_use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty
 def _fine_fields(
     solve: Callable[[], ContactFields], fields: ContactFields | None, report: Report
 ) -> tuple[ContactFields | None, Report]:
-    """Return the fields that ``solve`` gives, and the report; where it does not converge, or has too many cells, ``fields`` and
-    a note."""
+    """Return the fields that ``solve`` gives, and the report; where it does not converge, or has too many cells,
+    ``fields`` and a note."""
     try:
         return solve(), report
     except (ConvergenceError, InputError) as error:

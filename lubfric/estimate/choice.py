@@ -44,8 +44,8 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
 
     Where the requested model has no answer (`Model.why_unable`), the most expensive of the cheaper ones that has one
-    answers in its place, and `Choice.why` says so; of a model that is not in `MODELS`, the cheapest counts as cheaper. A
-    model that is given as such takes no control. ``for_fields``: on the cells on which a sample shows its fields
+    answers in its place, and `Choice.why` says so; of a model that is not in `MODELS`, the cheapest counts as cheaper.
+    A model that is given as such takes no control. ``for_fields``: on the cells on which a sample shows its fields
     (`Sample.on_field_cells`). Raises `ConvergenceError`, and `InputError` where no model has an answer.
     """
     if isinstance(requested, Model):
@@ -67,8 +67,8 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
 
 
 def _able(speed: float, models: Sequence[Model], reasons: Mapping[str, str]) -> list[Model]:
-    """Return those of ``models`` that have an answer at ``speed`` [m/s]: none of the ``reasons`` against it, by their names.
-    `InputError` where none has."""
+    """Return those of ``models`` that have an answer at ``speed`` [m/s]: none of the ``reasons`` against it, by their
+    names. `InputError` where none has."""
     able = [model for model in models if not reasons[model.name]]
     if not able:
         why = "; ".join(f"{name}: {reason}" for name, reason in reasons.items())
@@ -104,8 +104,8 @@ def _most_expensive(prepared: Prepared, speed: float, models: list[Model], named
 def _beside(
     prepared: Prepared, speed: float, model: Model, cheapest: tuple[Model, SampleSolution], *, for_fields: bool
 ) -> Choice:
-    """Return the solution of ``model``, with the strips of the ``cheapest`` model and its solution as a control if it takes
-    one (`Model.takes_control`)."""
+    """Return the solution of ``model``, with the strips of the ``cheapest`` model and its solution as a control if it
+    takes one (`Model.takes_control`)."""
     control = cheapest[1].control() if model.takes_control(prepared.scene, prepared.sample) else None
     solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
     return Choice(model=model, solution=solution, compared=None if control is None else cheapest)
@@ -114,15 +114,16 @@ def _beside(
 def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
     """Return the solution of the cheapest of ``models`` that is good enough; they are sorted, the cheapest first.
 
-    Each model in turn is tried after the solution of the one before. That solution answers, and no further model is tried,
+    Each model in turn is tried after the solution of the one before. That solution answers, and no further model is
+    tried,
 
     - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
     - if it has a severe violation, so that f means nothing by any model (those `OF_ONE_MODEL` excepted);
     - if the next model declines (`Model.why_declined`), does not converge, needs too many cells, or finds by its first steps that
       it takes more than `Model.most_strip_work_in_auto`.
 
-    A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of those
-    that take one.
+    A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of
+    those that take one.
     """
     with limited_work(work_for_an_answer()):
         first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)

@@ -40,10 +40,10 @@ def friction(
 
     Strips of the rough surface represent the infinite line contact. More strips are solved until the sampling error is
     within its tolerance. In the load-sharing model (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z) film and rough
-    contact share the load by Eq. (8). The deterministic model solves the film between the rough surfaces, on short cells,
-    or on long cells with a calibrated error. By default the cheapest model answers whose model-form error is within
-    ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact carries the total load. Where the film
-    is thicker than the highest asperities, no contact is solved.
+    contact share the load by Eq. (8). The deterministic model solves the film between the rough surfaces, on short
+    cells, or on long cells with a calibrated error. By default the cheapest model answers whose model-form error is
+    within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact carries the total load. Where
+    the film is thicker than the highest asperities, no contact is solved.
 
     Parameters
     ----------

@@ -26,12 +26,13 @@ NOT_CONVERGED = "the solve at an end of its range did not converge"
 
 
 def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
-    """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; where these are not known, why.
+    """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; where these are not known,
+    why.
 
-    f is linear in f_b at a given division of the load. At each end of every other range it is solved again, by the model
-    of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows its change there from its solution
-    (`ModelAnswer.change_without_solve`). The changes are relative to the middle on the same cells. An end that cannot be
-    solved, and the hardness of a contact that is not lubfric's own, are not known.
+    f is linear in f_b at a given division of the load. At each end of every other range it is solved again, by the
+    model of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows its change there from its solution
+    (`ModelAnswer.change_without_solve`). The changes are relative to the middle on the same cells. An end that cannot
+    be solved, and the hardness of a contact that is not lubfric's own, are not known.
     """
     scene = prepared.scene
     changes_of_f: dict[str, tuple[float, ...] | str] = {}
@@ -100,8 +101,8 @@ def with_inputs_not_given(old: Uncertainty, relative_changes: dict[str, tuple[fl
 
 
 def _signed(percentage: float) -> str:
-    """Return a change in percent with its sign, to two digits, or three from 100 % on; "0" for one that the rounding of a
-    solve leaves."""
+    """Return a change in percent with its sign, to two digits, or three from 100 % on; "0" for one that the rounding of
+    a solve leaves."""
     if abs(percentage) < 100 * LEAST_SHOWN_CHANGE:
         return "0"
     has_three_digits = abs(percentage) >= LEAST_OF_THREE_DIGITS

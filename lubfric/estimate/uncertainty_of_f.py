@@ -69,8 +69,8 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
-    """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear stress
-    allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
+    """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear
+    stress allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
     f = answer.numbers["coefficient"]
     (sliding, by_rolling) = _largest_parts(scene, answer)
     most = max(sliding + by_rolling, abs(f))
@@ -87,8 +87,9 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
 
 
 def _largest_change(scene: Scene, answer: ModelAnswer) -> float:
-    """Return the largest relative change of f that the limits of the shear stress and the sense of the sliding leave; infinite where
-    the bodies do not always slide. An error that is extrapolated from few lengths of cells may be larger, which means nothing."""
+    """Return the largest relative change of f that the limits of the shear stress and the sense of the sliding leave;
+    infinite where the bodies do not always slide. An error that is extrapolated from few lengths of cells may be
+    larger, which means nothing."""
     f = abs(answer.numbers["coefficient"])
     if f == 0 or not _always_slides(scene):
         return math.inf
@@ -97,15 +98,16 @@ def _largest_change(scene: Scene, answer: ModelAnswer) -> float:
 
 
 def _largest_parts(scene: Scene, answer: ModelAnswer) -> tuple[float, float]:
-    """Return the largest f [-] by sliding that the limits of the shear stress allow, and the largest magnitude of its rolling part."""
+    """Return the largest f [-] by sliding that the limits of the shear stress allow, and the largest magnitude of its
+    rolling part."""
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
     return sliding, answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
 
 
 def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
-    """Return ``uncertainty`` with an interval of f that is not below what the rolling part of the force leaves, where the
-    surfaces slide.
+    """Return ``uncertainty`` with an interval of f that is not below what the rolling part of the force leaves, where
+    the surfaces slide.
 
     The sliding part of f resists the sliding, because it dissipates power; f is below 0 only by the rolling part of the
     film's force, where that points the other way.

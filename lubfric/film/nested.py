@@ -146,7 +146,8 @@ def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState
     """Return the first state, and the chain of rough solutions on n cells that leads there, each started from the one
     before.
 
-    alpha rises from the value at which L is `EASY_MATERIAL_NUMBER`, then shear begins to thin the oil, and the inlet moves inwards.
+    alpha rises from the value at which L is `EASY_MATERIAL_NUMBER`, then shear begins to thin the oil, and the inlet
+    moves inwards.
     """
     shares = [min(1.0, EASY_MATERIAL_NUMBER / max(problem.L, EASY_MATERIAL_NUMBER))]
     while shares[-1] < 1.0:

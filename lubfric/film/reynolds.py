@@ -37,8 +37,8 @@ VISCOSITY_STEP = 3.0
 MOST_FILM_STEP = 0.7
 # Counted work [s of a usual core] of a Newton step, whatever its cells: 1.4 to 1.6e-4 was measured on 48 and 96 cells.
 STEP_WORK = 1.4e-4
-# Counted work [s of a usual core] of a Newton step over the square of its cells, whose matrix is dense: measured on 96 and
-# 192 cells.
+# Counted work [s of a usual core] of a Newton step over the square of its cells, whose matrix is dense: measured on 96
+# and 192 cells.
 MATRIX_WORK = 4e-9
 
 
@@ -192,8 +192,8 @@ def _face_rows(grid: Grid, t: ReynoldsTerms, J: np.ndarray) -> np.ndarray:
 
 
 def _closing_rows(grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndarray) -> tuple[float, float]:
-    """Fill the rows of the inlet, of the load and of the rupture into ``J``; return the derivatives of the first and of the
-    last one by the film."""
+    """Fill the rows of the inlet, of the load and of the rupture into ``J``; return the derivatives of the first and of
+    the last one by the film."""
     n = grid.n
     q = t.q
     M = problem.M

@@ -3,8 +3,8 @@
 `contract` says what a model is: it solves strips of a sample at one speed. `registry` names the models there are:
 ``"paper"``, film and contact that share one load, with the friction of Eq. (9) (`load_sharing.paper_model`);
 ``"quick"``, the quick model: strips on long cells with a calibrated error (`quick.quick_model`); and
-``"deterministic"``, the film between the rough surfaces in its own gap (`deterministic.deterministic_model`). `shared` is what they
-have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
+``"deterministic"``, the film between the rough surfaces in its own gap (`deterministic.deterministic_model`). `shared`
+is what they have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
 from .contract import AUTO, Model, SampleSolution

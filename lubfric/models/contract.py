@@ -1,11 +1,11 @@
 """The contract of a model: all that you need to know to write one.
 
 A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
-need and whether their cells are too coarse; `lubfric.estimate` solves more until both are enough, corrects it, and builds
-the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one as
-`ControlVariate`. `name` and `solve` of a model and the `answer` of its solution are all that has to be written; the
-other members say what a model costs, where it applies and whether it is good enough, and have defaults. The three
-models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
+need and whether their cells are too coarse; `lubfric.estimate` solves more until both are enough, corrects it, and
+builds the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more
+expensive one as `ControlVariate`. `name` and `solve` of a model and the `answer` of its solution are all that has to be
+written; the other members say what a model costs, where it applies and whether it is good enough, and have defaults.
+The three models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ AUTO = "auto"
 
 
 class SampleSolution(ABC):
-    """What a model has solved of the first ``count`` strips of a sample. A model whose strips are of its own, as "quick",
-    solves them in `completed`.
+    """What a model has solved of the first ``count`` strips of a sample. A model whose strips are of its own, as
+    "quick", solves them in `completed`.
 
     `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected` and `completed`,
     and at last the `answer`.
@@ -43,13 +43,14 @@ class SampleSolution(ABC):
 
     @abstractmethod
     def answer(self) -> ModelAnswer:
-        """Return all that the model says of this point. What `completed` would solve for it is solved here, if it is not yet."""
+        """Return all that the model says of this point. What `completed` would solve for it is solved here, if it is
+        not yet."""
 
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough.
 
-        By default they are those that `AnswerErrors.sampling_error` needs, of the `answer` before `completed`. A model whose
-        `answer` takes work or needs `completed`, or that decides by another error, says it here.
+        By default they are those that `AnswerErrors.sampling_error` needs, of the `answer` before `completed`. A model
+        whose `answer` takes work or needs `completed`, or that decides by another error, says it here.
         """
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         return strips_for_error(
@@ -75,8 +76,8 @@ class SampleSolution(ABC):
     def completed(self) -> SampleSolution:
         """Solve what the answer needs and `Model.solve` left out; itself where that is nothing, as of its own result.
 
-        `lubfric.estimate.choice` calls it: once there are enough strips, whether of `Model.solve` or adopted from another
-        model (`Model.adopt`), and before it asks for the answer, which needs no solve then.
+        `lubfric.estimate.choice` calls it: once there are enough strips, whether of `Model.solve` or adopted from
+        another model (`Model.adopt`), and before it asks for the answer, which needs no solve then.
         """
         return self
 
@@ -124,12 +125,12 @@ class Model(ABC):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> SampleSolution:
-        """Solve the first ``count`` strips of the line at ``speed`` [m/s]. A model may solve as few of them as its own error
-        needs.
+        """Solve the first ``count`` strips of the line at ``speed`` [m/s]. A model may solve as few of them as its own
+        error needs.
 
         ``sample``: that of ``prepared``, on the cells that are requested, for a model that takes them
-        (`takes_cells_of_sample`); ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
-        `ConvergenceError`.
+        (`takes_cells_of_sample`); ``start``: the solution of fewer of the same strips; ``control``: what a cheaper
+        model knows of them. Raises `ConvergenceError`.
         """
 
     def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
@@ -149,12 +150,13 @@ class Model(ABC):
 
     @property
     def most_strip_work_in_auto(self) -> float:
-        """Counted work [s] of the first strip above which numerics.model = "auto" leaves a point to a cheaper model, once the first
-        steps of the solve forecast it; infinite: none."""
+        """Counted work [s] of the first strip above which numerics.model = "auto" leaves a point to a cheaper model,
+        once the first steps of the solve forecast it; infinite: none."""
         return math.inf
 
     def limit_of_work_in_auto(self) -> str:
-        """Return the work of a point above which numerics.model = "auto" leaves it to a cheaper model, as text; "": none."""
+        """Return the work of a point above which numerics.model = "auto" leaves it to a cheaper model, as text; "":
+        none."""
         return ""
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
@@ -184,8 +186,8 @@ class Model(ABC):
         return True
 
     def strips_to_begin_with(self, sample: Sample) -> int:
-        """Return the number of strips that this model solves before its error says how many it needs: those on which a line is
-        solved first, or one where it solves each strip by itself."""
+        """Return the number of strips that this model solves before its error says how many it needs: those on which a
+        line is solved first, or one where it solves each strip by itself."""
         return sample.first_strips
 
     def estimate_work(
@@ -199,8 +201,8 @@ class Model(ABC):
         return WorkEstimate(strips=self.strips_to_begin_with(sample), seconds=0.0)
 
     def measure_time(self, prepared: Prepared, speed: float) -> MeasuredTime | None:
-        """Solve the first steps of a strip of moving roughness at ``speed`` [m/s], and return what they say of `estimate_work`; None
-        where nothing is measured."""
+        """Solve the first steps of a strip of moving roughness at ``speed`` [m/s], and return what they say of
+        `estimate_work`; None where nothing is measured."""
         return None
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
@@ -210,8 +212,8 @@ class Model(ABC):
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         """Return the names of the methods of this model that have a paper behind them (estimate/papers.toml).
 
-        ``has_contact``, ``has_film``: whether asperities, or a film, carry load. What surface, lubricant and heat rest on is
-        added for every model.
+        ``has_contact``, ``has_film``: whether asperities, or a film, carry load. What surface, lubricant and heat rest
+        on is added for every model.
         """
         return ()
 

@@ -1,6 +1,7 @@
 """What a model says of one operating point: its `ModelAnswer`, with the `ContactFields` of one solve.
 
-`lubfric.estimate` builds the `FrictionResult` from it. A model fills what it knows: the defaults say that it knows no more.
+`lubfric.estimate` builds the `FrictionResult` from it. A model fills what it knows: the defaults say that it knows no
+more.
 """
 
 from __future__ import annotations
@@ -107,8 +108,8 @@ class AnswerErrors:
     parts_of_model : what the model-form error consists of, each with its cause; (): not known
     of_numbers : of the numbers, by name: the standard error of the sample together with the numerical error, which is that
         of the number where it is known, else ``numerical``; without the model-form error
-    why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor 0,
-        and of some by name
+    why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor
+        0, and of some by name
     notes : remarks on these errors
     area_needed : area that the sampling error needs, over that of the sample (`lubfric.estimate.Uncertainty`)
     """
@@ -153,8 +154,8 @@ class ModelAnswer:
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
     at_inputs : makes what solves f again at other inputs; None: the model cannot
-    change_without_solve : returns the relative change of f at an end of the range of an input, from its name, the number
-        of the end (0 or 1) and the scene there, if the solution shows it; None: it has to be solved
+    change_without_solve : returns the relative change of f at an end of the range of an input, from its name, the
+        number of the end (0 or 1) and the scene there, if the solution shows it; None: it has to be solved
     """
 
     numbers: dict[str, float]

@@ -68,12 +68,13 @@ SOME = 25
 # Speeds in the table, about. A choice: more fills the screen.
 TABLE_SPEEDS = 6
 
-# Processor time [s] of a strip of moving roughness above which `info` measures its first steps. A choice: of a shorter one that takes as
-# long as the answer.
+# Processor time [s] of a strip of moving roughness above which `info` measures its first steps. A choice: of a shorter
+# one that takes as long as the answer.
 MEASURED_FROM = 3.0
 
-# How well a time is known that is measured on the first steps of a strip. Measured: 8 of 11 runs of the campaign of estimates from
-# number 20000 on (all within 3, five are in the table); the strips and moments that the sample needs are left open.
+# How well a time is known that is measured on the first steps of a strip. Measured: 8 of 11 runs of the campaign of
+# estimates from number 20000 on (all within 3, five are in the table); the strips and moments that the sample needs are
+# left open.
 WITHIN_MEASURED = "within a factor of 2 in three of four cases"
 
 # Characters of a heading that is not broken. A choice, by looking at the table.
@@ -90,16 +91,16 @@ COMMAND_SECONDS = 2.4
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
-# Relative difference of two speeds or slide-roll ratios that are the same but for rounding. A choice: any number between
-# rounding and a digit that a user writes does.
+# Relative difference of two speeds or slide-roll ratios that are the same but for rounding. A choice: any number
+# between rounding and a digit that a user writes does.
 SPEED_ROUNDING = 1e-9
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
 # digits. A choice: any number between rounding and a speed does.
 STANDSTILL_PART = 1e-8
 # Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01
-# Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the usual
-# limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
+# Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the
+# usual limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
 FULL_FILM_LAMBDA = 3.0
 
 
@@ -136,8 +137,8 @@ class SceneEstimate:
 
 
 def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
-    """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling resistance,
-    as text to be appended; "" for a small part."""
+    """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling
+    resistance, as text to be appended; "" for a small part."""
     sliding = abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
     rolling = point.power_loss - sliding
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
@@ -154,8 +155,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 def described_scene(
     scene: Scene, speeds: Sequence[float] | str = (), *, measures: bool = False
 ) -> tuple[str, SceneEstimate]:
-    """Return the text of `describe_scene`, and what it states. ``measures``: where a strip of moving roughness takes more than
-    `MEASURED_FROM`, its first steps in time are solved, and the processor time follows from them."""
+    """Return the text of `describe_scene`, and what it states. ``measures``: where a strip of moving roughness takes
+    more than `MEASURED_FROM`, its first steps in time are solved, and the processor time follows from them."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
@@ -177,8 +178,8 @@ def described_scene(
 
 
 def _table_in_text(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """Return the lines of a table of ``rows``, whose first one is the headings: these are broken between words, such that no
-    column is wider than its cells and the words of its heading."""
+    """Return the lines of a table of ``rows``, whose first one is the headings: these are broken between words, such
+    that no column is wider than its cells and the words of its heading."""
     columns = []
     for heading, *cells in zip(*rows):
         width = max(LEAST_HEADING, *map(len, (*heading.split(), *cells)))
@@ -200,8 +201,8 @@ def estimate_scene(
     work: WorkOfPoints | None = None,
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
-    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measured``: by the name of
-    a model, what its first steps say of its time; ``work``: the estimates of its points that are known."""
+    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measured``: by
+    the name of a model, what its first steps say of its time; ``work``: the estimates of its points that are known."""
     work = work or WorkOfPoints(scene, sample, surface)
     scene_speed = scene.motion.entrainment_speed
     speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
@@ -291,8 +292,8 @@ def _speeds_of(scene: Scene, surface: Surface, speeds: Sequence[float] | str) ->
 
 
 def speeds_of_curve(scene: Scene) -> list[float]:
-    """Return the speeds [m/s] of the curve that 'lubfric run' solves: those of the ``scene``, and its own speed, which is its
-    operating point, where it belongs to that curve and is not among them."""
+    """Return the speeds [m/s] of the curve that 'lubfric run' solves: those of the ``scene``, and its own speed, which
+    is its operating point, where it belongs to that curve and is not among them."""
     scene_speed = scene.motion.entrainment_speed
     speeds = list(scene.motion.speeds)
     if not speeds:
@@ -313,7 +314,8 @@ def belongs_to_curve(speed: float, speeds: Iterable[float]) -> bool:
 
 
 def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstimate]:
-    """Return the points, of some at these ``speeds`` [m/s], one strip of which takes more than `MEASURED_FROM` where roughness moves."""
+    """Return the points, of some at these ``speeds`` [m/s], one strip of which takes more than `MEASURED_FROM` where
+    roughness moves."""
     if work.scene.transient is not None:
         return []
     moving = sorted({abs(u) for u in speeds if u != 0})
@@ -322,8 +324,8 @@ def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstim
 
 
 def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, MeasuredTime]:
-    """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its time; {}: no
-    strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
+    """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its
+    time; {}: no strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
     slow = _slow_points(work, _speeds_of(work.scene, work.surface, speeds))
     if not slow:
         return {}
@@ -348,7 +350,8 @@ def _fastest_moment(scene: Scene) -> Scene:
 
 
 def _doubts(at: list[tuple[float | None, Violation]]) -> list[str]:
-    """Return the violations as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and a violation."""
+    """Return the violations as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and a
+    violation."""
     fixed = [violation.text for speed, violation in at if speed is None]
     return [*fixed, *gathered([(speed, (violation,)) for speed, violation in at if speed is not None])]
 
@@ -405,8 +408,8 @@ def _model(
 
 
 def _in_auto(scene: Scene, forecasts: Sequence[PointWorkEstimate]) -> str:
-    """Return which model "auto" is expected to take at the points of ``forecasts``, as text: the most expensive at any of
-    them, and where that is."""
+    """Return which model "auto" is expected to take at the points of ``forecasts``, as text: the most expensive at any
+    of them, and where that is."""
     expected = {point.model.name for point in forecasts}
     cheapest = models_up_to(AUTO)[:1]
     model = ([each for each in models_up_to(AUTO) if each.name in expected] or cheapest)[-1]
@@ -535,8 +538,8 @@ def _film_in_words(scene: Scene, surface: Surface, speed: float, asperities: str
 
 
 def asperities_in_words(asperities: str, lambda_ratio: float) -> str:
-    """Return whether asperities touch, as the table says it. ``asperities``: by the height of the highest summit, one of
-    `ASPERITIES`. What that does not decide is likely below the `FULL_FILM_LAMBDA`."""
+    """Return whether asperities touch, as the table says it. ``asperities``: by the height of the highest summit, one
+    of `ASPERITIES`. What that does not decide is likely below the `FULL_FILM_LAMBDA`."""
     is_open = asperities == FEW_TOUCH
     return "likely" if is_open and lambda_ratio < FULL_FILM_LAMBDA else ASPERITIES[asperities]
 

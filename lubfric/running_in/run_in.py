@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 STEPS_OF_HALF_WIDTH = 2.0
 # Tolerance of the dry contact [-], at most: its overlaps become heights. A choice: less takes more iterations.
 PASS_TOLERANCE = 1e-5
-# Processor seconds of an iteration of a contact of a pass, whatever its cells, and over its cells. These and the next three are
-# fitted to the counted work of 38 runs of `python -m verification.campaigns.estimates`; their time is .8 to 2.3 times as long, 1.25
-# times in the median.
+# Processor seconds of an iteration of a contact of a pass, whatever its cells, and over its cells. These and the next
+# three are fitted to the counted work of 38 runs of `python -m verification.campaigns.estimates`; their time is .8 to
+# 2.3 times as long, 1.25 times in the median.
 ITERATION_SECONDS = 1.75e-4
 ITERATION_CELL_SECONDS = 2.2e-8
 
@@ -97,8 +97,8 @@ class RunIn(FrozenArrays, Shown):
         return self.before.heights - self.dented.heights
 
     def cite(self, format: str = "text") -> str:
-        """Return the publications of the contact that dents the surface and, with wear, of the law of wear and of the asperity
-        pressure: one a line, or with ``format`` "bibtex" as BibTeX entries."""
+        """Return the publications of the contact that dents the surface and, with wear, of the law of wear and of the
+        asperity pressure: one a line, or with ``format`` "bibtex" as BibTeX entries."""
         return cited(("half-space contact", *(("wear", "load sharing") if self.wear is not None else ())), format)
 
     def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -173,9 +173,9 @@ def run_in(
 ) -> RunIn:
     """Let the loaded cylinder of ``scene`` pass over its rough surface until that has run in.
 
-    First its summits yield. The cylinder carries ``bodies.load`` without a film. The map passes under it step by step, its end at the largest x
-    first if the entrainment speed is positive. Cells at ``bodies.hardness`` are lowered by their overlap. The map
-    continues beyond its ends: onto itself if it is periodic along x, else by its mirror image.
+    First its summits yield. The cylinder carries ``bodies.load`` without a film. The map passes under it step by step,
+    its end at the largest x first if the entrainment speed is positive. Cells at ``bodies.hardness`` are lowered by
+    their overlap. The map continues beyond its ends: onto itself if it is periodic along x, else by its mirror image.
 
     Then, with a ``distance`` and a ``wear_coefficient``, the asperities wear while the surface slides in its
     lubricated contact at the speed of the scene. Each place where the bodies rub loses K p s/H (J. F. Archard, J.
@@ -207,8 +207,8 @@ def run_in(
     ------
     InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range; wear
         without sliding, or by a model without asperity pressures
-    ConvergenceError : a contact or a balance that could not be solved; or (`lubfric.errors.WorkLimitError`) the run needs
-        more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
+    ConvergenceError : a contact or a balance that could not be solved; or (`lubfric.errors.WorkLimitError`) the run
+        needs more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
     """
     validate.called_back("on_progress", on_progress, "what, done, total")
     options = _Options(
@@ -393,7 +393,8 @@ def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
 
 
 def estimated_run_in(scene: Scene, *, distance: float = 0.0, wear_coefficient: float = 0.0) -> float:
-    """Return the estimated processor seconds of `run_in`; arguments as there. The map is made, and nothing is solved."""
+    """Return the estimated processor seconds of `run_in`; arguments as there. The map is made, and nothing is
+    solved."""
     wear_of = _checked_wear(scene, distance, wear_coefficient, None)
     before = _whole(scene, None)
     assert scene.bodies.hardness is not None  # `_whole` refuses a scene without

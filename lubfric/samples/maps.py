@@ -82,8 +82,8 @@ def way_to_longer_patch(scene: Scene, surface: Surface) -> str:
 
 
 def _axis_of_file(scene: Scene, name: str, axis: int) -> str:
-    """Return which axis of the file of section ``name`` lies along ``axis`` of the scene, as text; "" where it is the same
-    one."""
+    """Return which axis of the file of section ``name`` lies along ``axis`` of the scene, as text; "" where it is the
+    same one."""
     turned = getattr(scene, name).motion_axis == "y"
     return f" (its file is turned: {'yx'[axis]} of the file)" if turned else f" ({'xy'[axis]} of its file)"
 
@@ -183,8 +183,8 @@ def check_map(scene: Scene, surface: Surface, whole: Surface) -> None:
 
 
 def _longest_in_words(longest: LongestContact) -> str:
-    """Return the load, and the half-width that it gives, of the ``longest`` contact of a scene; in a run in time with its moment,
-    as text."""
+    """Return the load, and the half-width that it gives, of the ``longest`` contact of a scene; in a run in time with
+    its moment, as text."""
     bodies = longest.bodies
     if longest.time is None:
         return load_in_words(bodies)
@@ -195,8 +195,8 @@ def _longest_in_words(longest: LongestContact) -> str:
 
 
 def _way_to_other_axis(scene: Scene, whole: Surface, name: str, needed: float) -> str:
-    """Return that the ``whole`` map, too short along x for the ``needed`` length [m], is long enough along its other axis, as
-    text; "" where it is not. ``name``: the section of its file."""
+    """Return that the ``whole`` map, too short along x for the ``needed`` length [m], is long enough along its other
+    axis, as text; "" where it is not. ``name``: the section of its file."""
     across = whole.size[1]
     if across < needed:
         return ""
@@ -205,8 +205,8 @@ def _way_to_other_axis(scene: Scene, whole: Surface, name: str, needed: float) -
 
 
 def _load_in_kilonewtons(scene: Scene, step: float) -> str:
-    """Return the question whether the load of ``scene`` was meant in kN: cells of ``step`` [m] then resolve the Hertz strip, under
-    a usual Hertz pressure; "" where they do not."""
+    """Return the question whether the load of ``scene`` was meant in kN: cells of ``step`` [m] then resolve the Hertz
+    strip, under a usual Hertz pressure; "" where they do not."""
     bodies = scene.bodies
     meant = replace(bodies, load=converted(bodies.load, "kN", "N"))
     peak, meant_peak = (4 / math.pi * each.mean_hertz_pressure for each in (bodies, meant))
@@ -236,7 +236,8 @@ def _ways_with_short_map(name: str) -> str:
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
-    """Return a generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
+    """Return a generated map on the grid of ``domain``. The counterface draws other random numbers from the same
+    seed."""
     if domain.shape is None or domain.spacing is None:
         raise no_cells([rough], name=name)
     surface = generate_surface(

@@ -49,8 +49,8 @@ def solved(
     fine_fields: bool = False,
     warns: bool = True,
 ) -> Iterator[tuple[str, float, Outcome | None]]:
-    """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
-    outcome. If the scene cannot be made ready, that is the error of all.
+    """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error
+    as outcome. If the scene cannot be made ready, that is the error of all.
 
     Parameters
     ----------
@@ -160,8 +160,8 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
 
 
 def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]:
-    """Return the numbers of a point by name, those of its uncertainty among them, its status as text and the assumptions that
-    do not hold, by the ``numerics`` of its study."""
+    """Return the numbers of a point by name, those of its uncertainty among them, its status as text and the
+    assumptions that do not hold, by the ``numerics`` of its study."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
@@ -191,8 +191,8 @@ def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
 
 
 def _accepted_model_error(point: FrictionResult, numerics: Numerics) -> Iterator[Violation]:
-    """Yield a note if the model-form error of f is above its target and no warning of the ``point`` says so, as where the scene
-    names the model."""
+    """Yield a note if the model-form error of f is above its target and no warning of the ``point`` says so, as where
+    the scene names the model."""
     if any(violation.assumption == Assumption.MODEL_FORM_ERROR for violation in point.validity):
         return
     is_named = numerics.model != "auto"

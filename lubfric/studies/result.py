@@ -41,8 +41,8 @@ OLD_COLUMNS = {f"uncertainty_{name}": column for name, column in COLUMN_OF_ERROR
     "uncertainty_high": "interval_high",
     "uncertainty_tolerance": "sampling_tolerance",
 }
-# Points that a process of an executor receives at once, at most, and jobs that a study has at least where it has so many points.
-# Choices: more points wait for longer, fewer cost messages; fewer jobs leave processes idle.
+# Points that a process of an executor receives at once, at most, and jobs that a study has at least where it has so
+# many points. Choices: more points wait for longer, fewer cost messages; fewer jobs leave processes idle.
 POINTS_AT_ONCE = 8
 LEAST_JOBS = 64
 
@@ -207,10 +207,11 @@ class StudyResult(Renamed, Shown):
         return float(means) if means.ndim == 0 else means
 
     def mean_interval(self, name: str) -> tuple[np.ndarray | float, np.ndarray | float]:
-        """Return the ends of the 95 % interval of the `mean` of "coefficient" or "power_loss" over the operating points.
+        """Return the ends of the 95 % interval of the `mean` of "coefficient" or "power_loss" over the operating
+        points.
 
-        The errors of the points are taken as fully correlated, as one model, one surface and one oil cause them: the ends
-        are the means of the ends of the points. NaN where the interval of a point that counts is not known.
+        The errors of the points are taken as fully correlated, as one model, one surface and one oil cause them: the
+        ends are the means of the ends of the points. NaN where the interval of a point that counts is not known.
         """
         low, high = INTERVAL_COLUMNS[validate.choice("name", name, INTERVAL_COLUMNS)]
         return self.mean(low), self.mean(high)
@@ -298,8 +299,9 @@ def study(
     store : folder that receives every finished point at once. The same study, or a longer one, continues from there
         and computes nothing twice. Workers that do not see it send their points to this process, which keeps them
     on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
-    on_point : called as on_point(done, total, index, outcome) when a point is solved: ``index`` is its place in the arrays
-        of the result, ``outcome`` its `FrictionResult` or the exception. Points that ``store`` has are not among them
+    on_point : called as on_point(done, total, index, outcome) when a point is solved: ``index`` is its place in the
+        arrays of the result, ``outcome`` its `FrictionResult` or the exception. Points that ``store`` has are not among
+        them
     workers : processes of this machine that share the points, instead of an executor. A script that requests more than
         one needs ``if __name__ == "__main__":``
 
@@ -371,8 +373,8 @@ def _carried_out(
 def _jobs(
     plan: StudyPlan, left: list[Any], store: Store, together: int | None
 ) -> Iterator[Callable[[], Iterator[Any]]]:
-    """Yield the jobs of what is ``left`` to solve (`StudyTable.left`), with at most so many points ``together``; None: a
-    curve each, done here."""
+    """Yield the jobs of what is ``left`` to solve (`StudyTable.left`), with at most so many points ``together``; None:
+    a curve each, done here."""
     scenes = enumerate(scenes_of(plan.scene, plan.axes))
     tasks: list[tuple[Scene, str, tuple[float, ...]]] = []
     count = 0

@@ -1,4 +1,5 @@
-"""The numbers of a study while it is carried out, in arrays: a point takes some 400 bytes, whatever its result holds."""
+"""The numbers of a study while it is carried out, in arrays: a point takes some 400 bytes, whatever its result
+holds."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -133,8 +134,8 @@ class StudyTable:
         return along if self.plan.paired else (*along, place)
 
     def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-        """Return (columns, status, violations) in the shape of the study, without places that no curve used; a curve that
-        has not ended has one place that is not computed."""
+        """Return (columns, status, violations) in the shape of the study, without places that no curve used; a curve
+        that has not ended has one place that is not computed."""
         if self.plan.chooses_speeds:
             for key, curves in self._curves.items():
                 if key not in self.ended:

@@ -253,8 +253,8 @@ def _expected_lengths(
     lengths: tuple[float, float],
     level: float,
 ) -> list[float]:
-    """Return the correlation lengths [m] that maps of this ``spectrum`` have on average. Raises `InputError` where they are not
-    near the requested ``lengths``."""
+    """Return the correlation lengths [m] that maps of this ``spectrum`` have on average. Raises `InputError` where they
+    are not near the requested ``lengths``."""
     from scipy import fft
 
     acf = fft.irfft2(spectrum, shape)

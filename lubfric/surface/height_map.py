@@ -102,7 +102,8 @@ class Surface(FrozenArrays, Shown):
         return float(self.measured.std())
 
     def describe(self) -> str:
-        """Return one line: size, points, Sq, Ra, Rz, Ssk, Sk, Spk, Svk, largest height over Sq, missing share, source."""
+        """Return one line: size, points, Sq, Ra, Rz, Ssk, Sk, Spk, Svk, largest height over Sq, missing share,
+        source."""
         (lx, ly) = self.size
         (nx, ny) = self.shape
         (rz, length) = statistics.rz(self)

@@ -162,8 +162,8 @@ def combined(first: Surface, second: Surface) -> Surface:
 
 
 def _cut_to_common(pair_of: tuple[Surface, Surface], spacing: tuple[float, float]) -> Surface:
-    """Return the first map of a pair, cut around its middle along each axis where finer cells of ``spacing`` [m] are made of
-    it and the other map is shorter: two cells longer than the sum."""
+    """Return the first map of a pair, cut around its middle along each axis where finer cells of ``spacing`` [m] are
+    made of it and the other map is shorter: two cells longer than the sum."""
     surface, other = pair_of
     shape = list(surface.shape)
     for axis in range(2):

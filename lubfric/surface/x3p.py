@@ -91,8 +91,8 @@ def _read(archive: zipfile.ZipFile, path: Path) -> Surface:
 
 
 def _member(archive: zipfile.ZipFile, name: str, most: int) -> bytes:
-    """Return the bytes of a member whose size is at most ``most``, checked before it is unpacked. Links of some programs
-    have "\\" between folders, or begin with "./"."""
+    """Return the bytes of a member whose size is at most ``most``, checked before it is unpacked. Links of some
+    programs have "\\" between folders, or begin with "./"."""
     wanted = _path(name)
     members = [info for info in archive.infolist() if _path(info.filename) == wanted]
     if len(members) != 1:

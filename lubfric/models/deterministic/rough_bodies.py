@@ -1,4 +1,5 @@
-"""The maps of a point for the deterministic model: of strips, of pieces and of the rough bodies that move; and their control."""
+"""The maps of a point for the deterministic model: of strips, of pieces and of the rough bodies that move; and their
+control."""
 
 from dataclasses import replace
 
@@ -18,8 +19,8 @@ CONTROL_CELLS = 4_000_000
 
 
 def map_of_strip(prepared: Prepared, index: int) -> Surface:
-    """Return the map of strip ``index`` alone, which the deterministic model solves by itself: on the cells of the sample; of a
-    patch at rest all of it, on native cells."""
+    """Return the map of strip ``index`` alone, which the deterministic model solves by itself: on the cells of the
+    sample; of a patch at rest all of it, on native cells."""
     if prepared.sample.refines_in_place and not has_moving_roughness(prepared.scene):
         return prepared.surface
     return map_of_contact(prepared, contact_on_strip(prepared, prepared.sample, index))

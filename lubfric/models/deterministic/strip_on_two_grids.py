@@ -25,9 +25,9 @@ PER_LENGTH = 2.0
 # Cells in the Hertz half-width along x, at least. A choice: fewer show no contact. Half and twice change f by up to 1.8
 # %, its interval by up to 28 % and the work by up to 270 % (constants.csv).
 PER_HALF_WIDTH = 1.0
-# Cells along one axis over those along the other [-], each in what they have to resolve, up to which a patch is solved on
-# shorter ones along it: beyond, the error of f, of second order, comes from the other axis. A choice: more solves needless
-# cells, less leaves an error that no change of f shows.
+# Cells along one axis over those along the other [-], each in what they have to resolve, up to which a patch is solved
+# on shorter ones along it: beyond, the error of f, of second order, comes from the other axis. A choice: more solves
+# needless cells, less leaves an error that no change of f shows.
 MUCH_SHORTER = 0.25
 
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: less
@@ -79,9 +79,9 @@ class StripOnTwoGrids:
 
 def sample_coarsening_of(scene: Scene, sample: Sample) -> SampleCoarsening:
     """Return the length of the cells of the deterministic model in those of the ``sample``, along x and y: 2, or 1
-    where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH` in half the
-    Hertz strip, of moving roughness more than `longest_cell_in_motion`, or does not divide the rows of a strip. Where roughness moves,
-    ``numerics.grid = "given"`` takes those of the scene."""
+    where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
+    in half the Hertz strip, of moving roughness more than `longest_cell_in_motion`, or does not divide the rows of a
+    strip. Where roughness moves, ``numerics.grid = "given"`` takes those of the scene."""
     if has_moving_roughness(scene) and scene.numerics.grid == "given":
         return SampleCoarsening((1, 1))
     (lx, ly) = sample.correlation_lengths
@@ -106,8 +106,9 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
 
 
 def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int, int]) -> NativeCoarsening:
-    """Return the length, in native cells, of cells that show a patch at rest: those of length ``solved`` that f is found on, or the
-    longest shorter ones that show the Hertz strip (`Cells.longest_to_look_at`) and divide the rows of the map; else native ones."""
+    """Return the length, in native cells, of cells that show a patch at rest: those of length ``solved`` that f is
+    found on, or the longest shorter ones that show the Hertz strip (`Cells.longest_to_look_at`) and divide the rows of
+    the map; else native ones."""
     (dx, dy) = sample.cells.native_spacing
     longest = sample.cells.longest_to_look_at(scene.bodies.half_width)
     rows = sample.rows * sample.cells.coarsening[1]
@@ -117,16 +118,17 @@ def patch_coarsening_to_look_at(scene: Scene, sample: Sample, solved: tuple[int,
 
 
 def coarsening_at_rest(scene: Scene, sample: Sample) -> MapCoarsening:
-    """Return the length of the cells of the deterministic model where roughness rests, in those of the map of a strip: of a patch,
-    in native ones (`Sample.refinement`)."""
+    """Return the length of the cells of the deterministic model where roughness rests, in those of the map of a strip:
+    of a patch, in native ones (`Sample.refinement`)."""
     (sx, sy) = sample_coarsening_of(scene, sample)
     (rx, ry) = sample.refinement
     return MapCoarsening((sx * rx, sy * ry))
 
 
 def shortened(scene: Scene, sample: Sample, coarsening: MapCoarsening) -> MapCoarsening:
-    """Return half the ``coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the same along an
-    axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests native cells."""
+    """Return half the ``coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the
+    same along an axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests
+    native cells."""
     (fx, fy) = coarsening
     halves = MapCoarsening((max(1, fx // 2), max(1, fy // 2)))
     if scene.numerics.grid == "given":
@@ -160,9 +162,9 @@ def solve_pair(
 ) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
-    ``slope``: of friction over load [-], as another strip has it; ``find_slope``: it is found by a second solve in its place,
-    where the roughness rests (where that moves, blocks of time and place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. ``most_work``: as of
-    `solve_moving_strip`. Raises `ConvergenceError`.
+    ``slope``: of friction over load [-], as another strip has it; ``find_slope``: it is found by a second solve in its
+    place, where the roughness rests (where that moves, blocks of time and place show it). ``has_halved_cells``: as of
+    `StripOnTwoGrids`, of moving roughness. ``most_work``: as of `solve_moving_strip`. Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
@@ -188,8 +190,8 @@ def _solve_moving_pair(
     most_work: float,
 ) -> tuple[StripSolution, StripSolution]:
     """Return strip ``index``, whose roughness moves over the map ``surface``, on longer cells and on cells of
-    ``map_coarsening``. On longer cells it is followed over the first moments, where these are longer along y and that has
-    a solution; else it is only at rest, and the change at rest is all that is known."""
+    ``map_coarsening``. On longer cells it is followed over the first moments, where these are longer along y and that
+    has a solution; else it is only at rest, and the change at rest is all that is known."""
     scene = prepared.scene
     longer_cells = longer_than(surface, map_coarsening, is_moving=True)
     bodies = bodies_of(prepared, index, speed)
@@ -240,8 +242,8 @@ def on_halved_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids) -> 
 
 
 def sample_target(prepared: Prepared, error: float) -> SampleTarget | None:
-    """Return how long a strip of moving roughness is followed: until the relative standard ``error`` of f is reached; None:
-    for a pass of its map, which is the only one."""
+    """Return how long a strip of moving roughness is followed: until the relative standard ``error`` of f is reached;
+    None: for a pass of its map, which is the only one."""
     control = summit_control(prepared)
     if control is None:
         return None

@@ -125,8 +125,8 @@ def solve_balance(
     the film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
     contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
     balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
-    contact at this one; ``starts_at_other_ratio``: whether its slide-roll ratio is another one, so that only its film and
-    contact serve; ``is_correctable``: what the root leaves open of the volume will be corrected to first order.
+    contact at this one; ``starts_at_other_ratio``: whether its slide-roll ratio is another one, so that only its film
+    and contact serve; ``is_correctable``: what the root leaves open of the volume will be corrected to first order.
     Raises `ConvergenceError`.
     """
     if speed == 0:
@@ -153,8 +153,8 @@ def solve_balance(
 
 
 def is_separated(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
-    """Return whether the film of the total load at ``speed`` [m/s], not 0, separates the surfaces of ``rough_contact``, as
-    `solve_balance` finds before any contact. Raises `ConvergenceError`."""
+    """Return whether the film of the total load at ``speed`` [m/s], not 0, separates the surfaces of ``rough_contact``,
+    as `solve_balance` finds before any contact. Raises `ConvergenceError`."""
     if _touches_certainly(scene, speed, rough_contact):
         return False
     film_alone = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, is_film_alone=True)))
@@ -217,10 +217,12 @@ def _touches_certainly(scene: Scene, speed: float, rough_contact: RoughContact) 
 def _in_contact(
     point: Point, sq: float, start: Balance | None, alone: EHLResult | None, known: Balance | None
 ) -> Balance:
-    """Return film and contact in balance, solved again until the settings are those that the balance shows to be needed.
+    """Return film and contact in balance, solved again until the settings are those that the balance shows to be
+    needed.
 
-    ``alone``: the film of the total load, if it is solved; ``known``: ``start``, if it has the speed and the sliding of the point. Where a root cannot be found as closely as needed, because
-    f jumps with single cells, the last one is kept and its error reported.
+    ``alone``: the film of the total load, if it is solved; ``known``: ``start``, if it has the speed and the sliding of
+    the point. Where a root cannot be found as closely as needed, because f jumps with single cells, the last one is
+    kept and its error reported.
     """
     near = _root_start(point, sq, start)
     if near.last is None and alone is not None:
@@ -253,7 +255,8 @@ def _in_contact(
 
 
 def response_of(point: Point, balance: Balance) -> Response:
-    """Return the response of film and contact of ``balance`` to the load, with the friction that they have at ``point``."""
+    """Return the response of film and contact of ``balance`` to the load, with the friction that they have at
+    ``point``."""
     assert balance.film is not None
     return _response(point, _trial_of(balance, balance.film))
 
@@ -306,8 +309,8 @@ class RootStart:
 
 
 def _root_start(point: Point, sq: float, start: Balance | None) -> RootStart:
-    """Return where the root is looked for from the balance ``start``; without one (None) where the rigid isoviscous film
-    is two Sq thick."""
+    """Return where the root is looked for from the balance ``start``; without one (None) where the rigid isoviscous
+    film is two Sq thick."""
     if start is None or start.film is None or start.response is None:
         thickness = max(2 * sq, 1e-12)
         film_share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
@@ -378,8 +381,8 @@ def _contact_tolerance(point: Point, contact_state: ContactState, volume: float)
 
 
 def _root(point: Point, near: RootStart) -> Root:
-    """Return the root of the closure's residual over ln(F_H/F_C); its payload is the `Trial` there, None where a given film
-    does not fill the gap."""
+    """Return the root of the closure's residual over ln(F_H/F_C); its payload is the `Trial` there, None where a given
+    film does not fill the gap."""
     load = point.scene.bodies.load
     most = point.rough_contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]

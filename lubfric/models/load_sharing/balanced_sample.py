@@ -46,8 +46,8 @@ MOST_CORRECTED_LOG_RATIO = 0.5
 # Change of gap or film over the mean gap that is to first order, at most. A choice, as in `MOST_CORRECTED_LOG_RATIO`.
 MOST_CORRECTED_GAP = 0.2
 
-# Clearance [Sq] below which asperities may be lost to the cells. Half and twice change nothing on the points of `python -m
-# verification.campaigns.constants`.
+# Clearance [Sq] below which asperities may be lost to the cells. Half and twice change nothing on the points of `python
+# -m verification.campaigns.constants`.
 LARGE_CLEARANCE = 1.0
 
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off. A
@@ -363,8 +363,8 @@ def _at_reference_ratio(scene: Scene) -> Scene:
 
 
 def nearest_reference(film: float) -> float | None:
-    """Return the expected film [Sq] of the reference point that is nearest to the expected ``film`` [Sq] of a point; None
-    where no contact is expected."""
+    """Return the expected film [Sq] of the reference point that is nearest to the expected ``film`` [Sq] of a point;
+    None where no contact is expected."""
     if film > CLEAR_OF_SUMMITS or film <= 0:
         return None
     return min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))

@@ -186,8 +186,8 @@ def _contact_errors(balanced: BalancedSample, solver: SolverErrors) -> dict[str,
 
 
 def _area_errors(balance: Balance, scatter: Scatter) -> dict[str, float]:
-    """Return the relative standard errors at given load of all that depends on an area: of the area of the complete line
-    its own, of the rest that of the fraction of A."""
+    """Return the relative standard errors at given load of all that depends on an area: of the area of the complete
+    line its own, of the rest that of the fraction of A."""
     contact_state = balance.contact_state
     of_fraction = _relative(scatter.area, contact_state.real_contact_area_fraction)
     of_line = _relative(scatter.contact_length, contact_length(contact_state))
@@ -277,8 +277,8 @@ def moment_model_error(
 ) -> Sides:
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, towards 0 and away from it.
 
-    It is that of steady motion with the same film, asperity load ratio ``share``, ``film_load`` [N], parts of f, and error
-    ``by_heat`` (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
+    It is that of steady motion with the same film, asperity load ratio ``share``, ``film_load`` [N], parts of f, and
+    error ``by_heat`` (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
     """
     if why_moment_unknown(scene):
         return UNKNOWN_SIDES
@@ -305,8 +305,8 @@ def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart,
 def _error_of_shared_load(
     scene: Scene, ratio: float, *, share: float, is_shared: bool, boundary: float, shear: float, rolling: float
 ) -> Sides:
-    """Return `load_sharing_error` at a film-to-roughness ``ratio``, with the ``rolling`` part of f if roughness moves, and at
-    least `least_error` where rough surfaces touch beside a film that carries load (``is_shared``).
+    """Return `load_sharing_error` at a film-to-roughness ``ratio``, with the ``rolling`` part of f if roughness moves,
+    and at least `least_error` where rough surfaces touch beside a film that carries load (``is_shared``).
 
     A film may carry so little that the ``share`` of the asperities rounds to 1: it is there nevertheless.
     """
@@ -317,8 +317,8 @@ def _error_of_shared_load(
 
 
 def why_moment_unknown(scene: Scene) -> str:
-    """Return why the model-form error of f in a run in time of ``scene`` is not known; "" if it is. The error is that of
-    steady motion, so only what the deterministic model does not take in steady motion counts."""
+    """Return why the model-form error of f in a run in time of ``scene`` is not known; "" if it is. The error is that
+    of steady motion, so only what the deterministic model does not take in steady motion counts."""
     return why_gap_not_resolved(replace(scene, transient=None))
 
 
@@ -332,7 +332,8 @@ def _area_needed(balanced: BalancedSample) -> float:
 
 
 def _notes(balanced: BalancedSample) -> tuple[str, ...]:
-    """Return why the sampling error is not known or above its tolerance, and whether few asperity contacts carry the load."""
+    """Return why the sampling error is not known or above its tolerance, and whether few asperity contacts carry the
+    load."""
     scene = balanced.prepared.scene
     error = balanced.sampling_error.value
     tolerance = scene.numerics.sampling_tolerance

@@ -28,8 +28,8 @@ CELL_SECONDS = 1.0e-7
 # film fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
 TIMES_BY_FLATTENING = 0.17
 
-# The same where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77 points on exponential surfaces:
-# 74 % within a factor of 3, and nearly all if it were known how often their cells are halved.
+# The same where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77 points on
+# exponential surfaces: 74 % within a factor of 3, and nearly all if it were known how often their cells are halved.
 TIMES_BY_FLATTENING_IF_ROUGH = 0.39
 
 # Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
@@ -71,12 +71,13 @@ FILM_SECONDS = 0.015
 # Factor on that with heat.
 HEAT_TIME_RATIO = 5.0
 
-# Cells in a correlation length along x, at most, until which cells are halved in the mean where the heights are not smooth over a cell
-# and the film carries a part of the load (`SHARED_IF_ROUGH`). Fitted to the halvings of 53 of these points, by their likelihood.
+# Cells in a correlation length along x, at most, until which cells are halved in the mean where the heights are not
+# smooth over a cell and the film carries a part of the load (`SHARED_IF_ROUGH`). Fitted to the halvings of 53 of these
+# points, by their likelihood.
 ROUGH_CELLS_OF_LENGTH = 18.0
 
-# Flattening of the bodies in Sq at which there are as many; and the fall of their binary logarithm with the square of how far its
-# natural logarithm is from that [-]: neither light nor wide contacts need so many. Fitted.
+# Flattening of the bodies in Sq at which there are as many; and the fall of their binary logarithm with the square of
+# how far its natural logarithm is from that [-]: neither light nor wide contacts need so many. Fitted.
 ROUGH_FLATTENING = 2.4
 ROUGH_BY_FLATTENING = 0.16
 
@@ -84,7 +85,8 @@ ROUGH_BY_FLATTENING = 0.16
 HALVINGS_SPREAD = 0.98
 MOST_HALVINGS = 3
 
-# Part of the gap that the film of the whole load fills, between which that happens: at half of these points there, and at none of the others.
+# Part of the gap that the film of the whole load fills, between which that happens: at half of these points there, and
+# at none of the others.
 SHARED_IF_ROUGH = (0.1, 0.93)
 
 # Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones
@@ -155,7 +157,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
 
 
 def _asperities(film: float, summit: float) -> str:
-    """Return whether asperities touch under an expected ``film`` [m] below a ``summit`` [m] above the mean height, as text."""
+    """Return whether asperities touch under an expected ``film`` [m] below a ``summit`` [m] above the mean height, as
+    text."""
     if CERTAIN_FACTOR * film < summit:
         return ALL_TOUCH
     return NONE_TOUCHES if film > CERTAIN_FACTOR * summit else FEW_TOUCH
@@ -167,8 +170,8 @@ def _times_by_heat(scene: Scene) -> float:
 
 
 def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
-    """Return the expected relative standard error of f after the first strips of ``sample``, under the ``film`` [m] of the
-    total load on ``sq`` [m]; 0 where very few asperities touch, and without entrainment.
+    """Return the expected relative standard error of f after the first strips of ``sample``, under the ``film`` [m] of
+    the total load on ``sq`` [m]; 0 where very few asperities touch, and without entrainment.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
@@ -193,8 +196,8 @@ def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float
 def _work_of_strips(
     scene: Scene, sample: Sample, surface: Surface, film: float, count: int
 ) -> tuple[float, tuple[SharedWork, ...]]:
-    """Return the processor time [s] of the balance on ``count`` strips of ``sample`` under an expected ``film`` [m], and the
-    parts of it that other points are spared: pieces, and the reference point."""
+    """Return the processor time [s] of the balance on ``count`` strips of ``sample`` under an expected ``film`` [m],
+    and the parts of it that other points are spared: pieces, and the reference point."""
     sq = surface.sq
     (lx, ly) = sample.correlation_lengths
     cells = sample.cells
@@ -238,8 +241,9 @@ def _work_of_strips(
 
 
 def _times_by_shorter_cells(sample: Sample, share: float, *, flattened: float, is_smooth: bool) -> float:
-    """Return the factor on the time of the strips because shorter cells may follow, where the expected film fills this ``share`` of the
-    gap between bodies ``flattened`` by so many Sq; ``is_smooth``: whether the heights are smooth over a cell."""
+    """Return the factor on the time of the strips because shorter cells may follow, where the expected film fills this
+    ``share`` of the gap between bodies ``flattened`` by so many Sq; ``is_smooth``: whether the heights are smooth over
+    a cell."""
     cells = sample.cells
     (least, most) = SHARED if is_smooth else SHARED_IF_ROUGH
     if cells.is_native or not least < share < most:
@@ -256,7 +260,8 @@ def _times_by_shorter_cells(sample: Sample, share: float, *, flattened: float, i
 
 
 def flattening(scene: Scene, sq: float) -> float:
-    """Return by how much the bodies of ``scene`` flatten over their Hertz strip, over the ``sq`` [m] of their roughness."""
+    """Return by how much the bodies of ``scene`` flatten over their Hertz strip, over the ``sq`` [m] of their
+    roughness."""
     return float(scene.bodies.half_width**2 / (2 * scene.bodies.radius * sq))
 
 
@@ -273,8 +278,8 @@ def cells_of_pieces(cells: Cells, native: float) -> float:
 
 
 def expected_model_error(scene: Scene, thickness: float, sq: float, speed: float) -> float:
-    """Return the expected model-form error of f under a ``thickness`` [m] on roughness of ``sq`` [m], relative, if asperities
-    carry nothing; 0 without roughness, NaN without entrainment."""
+    """Return the expected model-form error of f under a ``thickness`` [m] on roughness of ``sq`` [m], relative, if
+    asperities carry nothing; 0 without roughness, NaN without entrainment."""
     if sq == 0:
         return 0.0
     if speed == 0:

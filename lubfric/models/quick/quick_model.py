@@ -1,9 +1,9 @@
 """The quick model as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
 the error that solved cases give them.
 
-It answers for ``numerics.model = "quick"``. The joined strips of the model "paper" answer in its place, with the friction
-of Eq. (9), where the campaign has no such contacts. They are no control of the strips on long cells: on eight random
-contacts at rest they took 70 % of the time, and the interval with them was as wide as without.
+It answers for ``numerics.model = "quick"``. The joined strips of the model "paper" answer in its place, with the
+friction of Eq. (9), where the campaign has no such contacts. They are no control of the strips on long cells: on eight
+random contacts at rest they took 70 % of the time, and the interval with them was as wide as without.
 """
 
 from __future__ import annotations
@@ -60,12 +60,13 @@ USUAL_STRIPS = 1.5
 # `SAMPLING_OVER_BOUNDS`.
 EXPECTED_TARGET = 0.05
 
-# Expected asperity load ratios between which moving roughness is expected on the cells of a thin film [-]: 12 of 13 contacts
-# between them in verification.campaigns.rolling_work are on these, and 4 of 19 others.
+# Expected asperity load ratios between which moving roughness is expected on the cells of a thin film [-]: 12 of 13
+# contacts between them in verification.campaigns.rolling_work are on these, and 4 of 19 others.
 THIN_BY_SHARE = (0.06, 0.7)
 
-# Cells along x in a correlation length that are expected of others [-], between those of both kinds: the work grows with the square of
-# their number. A choice: it is at most 1.7 times too small, where they are on the cells of a thin film, and 1.3 times too large.
+# Cells along x in a correlation length that are expected of others [-], between those of both kinds: the work grows
+# with the square of their number. A choice: it is at most 1.7 times too small, where they are on the cells of a thin
+# film, and 1.3 times too large.
 EXPECTED_CELLS = 2.3
 
 BY_LOAD_SHARING = "load-sharing model in place of the quick model"
@@ -82,8 +83,8 @@ STRIPS_NOT_SOLVED = (
 
 @dataclass(frozen=True, kw_only=True)
 class QuickSolution(SampleSolution):
-    """A few strips by the deterministic model on long cells, or the joined strips by load sharing in their place: `completed`
-    solves what is missing.
+    """A few strips by the deterministic model on long cells, or the joined strips by load sharing in their place:
+    `completed` solves what is missing.
 
     Attributes
     ----------
@@ -144,10 +145,11 @@ class QuickSolution(SampleSolution):
         return replace(solution._with_paper_solution(), why_by_equation=why_by_equation)
 
     def _with_strips(self, of_thick_films: float) -> tuple[QuickSolution | None, str]:
-        """Return this solution with its strips on long cells and ""; where they cannot answer, None and why load sharing
-        does, as text.
+        """Return this solution with its strips on long cells and ""; where they cannot answer, None and why load
+        sharing does, as text.
 
-        ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is not.
+        ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is
+        not.
         """
         is_thick = of_thick_films > 0 and self.paper_solution is not None
         if why := _why_not_calibrated(self.prepared.scene):
@@ -164,8 +166,9 @@ class QuickSolution(SampleSolution):
         return with_strips, ""
 
     def _with_paper_solution(self) -> QuickSolution:
-        """Solve the joined strips by load sharing, if they are not solved: as many as the sampling error needs. The cells
-        remain: `lubfric.estimate.solve_to_tolerance`, which would shorten them, is of a package that uses this one."""
+        """Solve the joined strips by load sharing, if they are not solved: as many as the sampling error needs. The
+        cells remain: `lubfric.estimate.solve_to_tolerance`, which would shorten them, is of a package that uses this
+        one."""
         if self.paper_solution is not None:
             return self
         model = PaperModel()
@@ -175,8 +178,8 @@ class QuickSolution(SampleSolution):
         return replace(self, paper_solution=solution.corrected())
 
     def _is_separated_at_first(self) -> bool:
-        """Return whether the full-load film separates the surfaces of these strips, so that load sharing may answer. Where
-        asperities touch on them, they do on more strips."""
+        """Return whether the full-load film separates the surfaces of these strips, so that load sharing may answer.
+        Where asperities touch on them, they do on more strips."""
         rough_contact = contact_on_joined_strips(self.prepared, self.sample, self.count)
         try:
             return is_separated(self.prepared.scene, self.speed, rough_contact)
@@ -184,7 +187,8 @@ class QuickSolution(SampleSolution):
             return False  # without a film of load sharing the strips on long cells answer
 
     def _is_separated_within(self, most: float) -> bool:
-        """Return whether no asperity carries load by load sharing, with a relative model-form error of at most ``most``."""
+        """Return whether no asperity carries load by load sharing, with a relative model-form error of at most
+        ``most``."""
         assert self.paper_solution is not None
         answer = self.paper_solution.answer()
         return answer.numbers["contact_load"] == 0 and max(answer.errors.model_error) <= most
@@ -216,8 +220,9 @@ class QuickSolution(SampleSolution):
 
 
 def expected_coarsening(scene: Scene, sample: Sample, sq: float, speed: float) -> tuple[float, float]:
-    """Return the length of the long cells in those of ``sample`` that is expected for roughness of ``sq`` [m] at ``speed`` [m/s]:
-    where it moves, those of a thin film if asperities are expected to carry a part of the load (`THIN_BY_SHARE`)."""
+    """Return the length of the long cells in those of ``sample`` that is expected for roughness of ``sq`` [m] at
+    ``speed`` [m/s]: where it moves, those of a thin film if asperities are expected to carry a part of the load
+    (`THIN_BY_SHARE`)."""
     (dx, dy) = sample.cells.spacing
     if has_moving_roughness(scene):
         (least, most) = THIN_BY_SHARE
@@ -237,8 +242,8 @@ def expected_coarsening(scene: Scene, sample: Sample, sq: float, speed: float) -
 
 
 def _expected_strips(sample: Sample, alone: WorkEstimate) -> float:
-    """Return the expected number of strips at rest on long cells, by the sampling error of the joined strips of ``sample`` by load
-    sharing ``alone``."""
+    """Return the expected number of strips at rest on long cells, by the sampling error of the joined strips of
+    ``sample`` by load sharing ``alone``."""
     if not sample.represents_more:
         return 1.0  # all there is
     of_one = alone.expected_sampling_error * math.sqrt(sample.first_strips)
@@ -246,8 +251,8 @@ def _expected_strips(sample: Sample, alone: WorkEstimate) -> float:
 
 
 def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
-    """Return the error of f, relative, that the bounds of long cells have at least where the film over ``sq`` [m] at ``speed``
-    [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
+    """Return the error of f, relative, that the bounds of long cells have at least where the film over ``sq`` [m] at
+    ``speed`` [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
     if not (speed and sq):
         return 0.0
     times = scene.line_contact(abs(speed)).moes_film / (error_model_of(scene).range["moes_ratio"][1] * sq)
@@ -255,7 +260,8 @@ def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
 
 
 class QuickModel(Model):
-    """Strips on long cells with a calibrated error; the balance of Eq. (8) where the calibration has no such contacts."""
+    """Strips on long cells with a calibrated error; the balance of Eq. (8) where the calibration has no such
+    contacts."""
 
     @property
     def takes_wear(self) -> bool:
@@ -305,8 +311,8 @@ class QuickModel(Model):
     def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
-        """Return what a point takes on long cells, and on joined strips by load sharing where these may answer as well; no
-        work where another model answers in its place."""
+        """Return what a point takes on long cells, and on joined strips by load sharing where these may answer as well;
+        no work where another model answers in its place."""
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         if why_gap_not_resolved(scene):
             return replace(alone, seconds=0.0, has_answer=False, shared=())
@@ -383,16 +389,17 @@ def _why_not_calibrated(scene: Scene) -> str:
 
 
 def _may_answer_by_equation(scene: Scene, sq: float, speed: float) -> bool:
-    """Return whether the joined strips by load sharing may answer at ``speed`` [m/s], because the campaign has no such contacts or
-    because the film over ``sq`` [m] is thick; under a thick film whose roughness moves they are solved only when they have to."""
+    """Return whether the joined strips by load sharing may answer at ``speed`` [m/s], because the campaign has no such
+    contacts or because the film over ``sq`` [m] is thick; under a thick film whose roughness moves they are solved only
+    when they have to."""
     if _why_not_calibrated(scene):
         return True
     return not has_moving_roughness(scene) and _error_of_thick_films(scene, sq, speed) > 0
 
 
 def _is_thick_film_expected(scene: Scene, sq: float | None, speed: float) -> bool:
-    """Return whether the film that is expected at ``speed`` [m/s] over ``sq`` [m] (None: not known) is so thick that load
-    sharing answers."""
+    """Return whether the film that is expected at ``speed`` [m/s] over ``sq`` [m] (None: not known) is so thick that
+    load sharing answers."""
     if not (sq and speed):
         return False
     film = scene.line_contact(abs(speed)).expected_film

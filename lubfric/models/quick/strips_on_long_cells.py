@@ -107,9 +107,9 @@ class StripsOnLongCells:
     def numbers(self) -> dict[str, float]:
         """The numbers of the strips without their bias, which is one of the sliding part of f.
 
-        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain. Where
-        the asperity load cannot take all of it, because asperities carry none or all of the load, or have the stress
-        of the film, the remainder is attributed to the shear of the film. So the forces add up to f.
+        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain.
+        Where the asperity load cannot take all of it, because asperities carry none or all of the load, or have the
+        stress of the film, the remainder is attributed to the shear of the film. So the forces add up to f.
         """
         numbers = self.levels.numbers
         if self.scene.motion.slide_roll_ratio == 0:
@@ -130,8 +130,8 @@ class StripsOnLongCells:
 
     @property
     def bounds(self) -> Sides:
-        """The 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is the rolling
-        part."""
+        """The 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is the
+        rolling part."""
         f = self.numbers["coefficient"]
         is_rolling = self.scene.motion.slide_roll_ratio == 0
         rolling = f if is_rolling else self.levels.rolling_of_strips / self.scene.bodies.load
@@ -146,8 +146,9 @@ class StripsOnLongCells:
 def _with_asperity_load_ratio(scene: Scene, numbers: dict[str, float], load_ratio: float) -> dict[str, float]:
     """Return ``numbers`` with another asperity load ratio F_C/F_T.
 
-    Friction and films of the asperity contacts change in proportion to their load. Where no asperity carried any, all of the
-    load is on boundary film, with f_b. A saturated film is one of asperities; with a shear law it is one of the film load.
+    Friction and films of the asperity contacts change in proportion to their load. Where no asperity carried any, all
+    of the load is on boundary film, with f_b. A saturated film is one of asperities; with a shear law it is one of the
+    film load.
     """
     load = scene.bodies.load
     before = numbers["contact_load"] / load
@@ -199,8 +200,9 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
 
 
 def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
-    """Return the relative error, at 95 %, that the cells of the solved cases behind the calibration have in a contact like
-    this, by what the deterministic model expects (`CellsInMotion`); 0 where roughness rests, as the cases tell it there."""
+    """Return the relative error, at 95 %, that the cells of the solved cases behind the calibration have in a contact
+    like this, by what the deterministic model expects (`CellsInMotion`); 0 where roughness rests, as the cases tell it
+    there."""
     scene = prepared.scene
     if not has_moving_roughness(scene):
         return 0.0
@@ -219,8 +221,8 @@ def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
 
 
 def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = SAMPLING_OVER_BOUNDS) -> float:
-    """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at the
-    features of the first ``pair``."""
+    """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at
+    the features of the first ``pair``."""
     bounds = min(error_model_of(prepared.scene).log_half_width(_features_of(prepared, pair)), 1.0)
     return max(prepared.scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, part * bounds)
 

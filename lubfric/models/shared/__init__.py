@@ -1,8 +1,8 @@
 """What the models have in common: the scene made ready, heat, limits of validity, effects that are not modelled.
 
 `prepared` has a scene made ready, and the contact on its strips and pieces, with `memo`; `statistics` has the standard
-errors of means along a line and the number of strips that they need; `wording` writes errors as text. `load_sharing` and
-`deterministic` do not import each other, `quick` imports both, and all import this one.
+errors of means along a line and the number of strips that they need; `wording` writes errors as text. `load_sharing`
+and `deterministic` do not import each other, `quick` imports both, and all import this one.
 """
 
 from .checks import (

@@ -1,7 +1,8 @@
 """What a prepared scene remembers between speeds: contacts, operators and reference points, by typed keys.
 
-A value depends on the prepared scene and its key alone. Its work is counted at each use, also where it is not made again,
-because the work that a point has left decides what it solves. So the memory changes the time of a point, never its result.
+A value depends on the prepared scene and its key alone. Its work is counted at each use, also where it is not made
+again, because the work that a point has left decides what it solves. So the memory changes the time of a point, never
+its result.
 """
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ class StripKey(Key[HalfSpaceContact]):
 
 @dataclass(frozen=True)
 class PieceMapKey(Key[Surface]):
-    """The map of piece ``index``, some ``length`` correlation lengths long, on native cells; ``strip_coarsening``: length of the
-    cells of the strips, in native ones."""
+    """The map of piece ``index``, some ``length`` correlation lengths long, on native cells; ``strip_coarsening``:
+    length of the cells of the strips, in native ones."""
 
     is_shared_between_scenes = True
     strip_coarsening: tuple[int, int]
@@ -64,7 +65,8 @@ class PieceMapKey(Key[Surface]):
 
 @dataclass(frozen=True)
 class PieceKey(Key[HalfSpaceContact]):
-    """The contact on piece ``index``, on cells of this ``coarsening``, beside strips on cells of the ``strip_coarsening``."""
+    """The contact on piece ``index``, on cells of this ``coarsening``, beside strips on cells of the
+    ``strip_coarsening``."""
 
     is_shared_between_scenes = True
     strip_coarsening: tuple[int, int]
@@ -98,8 +100,9 @@ class DryContactKey(Key[ContactResult]):
 
 @dataclass(frozen=True, kw_only=True)
 class BalanceKey(Key[Any]):
-    """A balance of a ``scene`` at a fixed slide-roll ratio, from which those at other speeds and ratios start, on cells of this
-    ``coarsening``; ``at``: the expected film [Sq] of its fixed speed; ``is_forward``: whether that is positive."""
+    """A balance of a ``scene`` at a fixed slide-roll ratio, from which those at other speeds and ratios start, on cells
+    of this ``coarsening``; ``at``: the expected film [Sq] of its fixed speed; ``is_forward``: whether that is
+    positive."""
 
     is_shared_between_scenes = True
     scene: Scene
@@ -119,8 +122,8 @@ class CellEffectKey(Key[Any]):
 
 @dataclass(frozen=True, kw_only=True)
 class ShorterCellsKey(Key[Any]):
-    """The change by shorter cells than of this ``coarsening`` at a fixed speed: ``step``, its number in ln of the expected
-    film; ``is_forward``: whether it is positive."""
+    """The change by shorter cells than of this ``coarsening`` at a fixed speed: ``step``, its number in ln of the
+    expected film; ``is_forward``: whether it is positive."""
 
     is_shared_between_scenes = False
     coarsening: tuple[int, int]
@@ -163,8 +166,8 @@ class Memo:
     def get(self, key: Key[T], make: Callable[[], T], cells: Callable[[T], int] = lambda value: 0) -> T:
         """Return what ``make`` gives, made once for ``key``, and kept as long as there is room for its ``cells``.
 
-        Its work is counted at each use. Where the caller has less left, it is made again, so that the limit ends it at the
-        same step (`WorkLimitError`), which is not remembered.
+        Its work is counted at each use. Where the caller has less left, it is made again, so that the limit ends it at
+        the same step (`WorkLimitError`), which is not remembered.
         """
         if key.is_shared_between_scenes and self._of_surface is not None:
             return self._of_surface.get(key, make, cells)
@@ -189,6 +192,6 @@ class Memo:
             self._kept.pop(entries.pop(0)[0], None)
 
     def share_surface_of(self, other: Memo) -> None:
-        """Share with ``other``, and with all that share with it, what depends on the surface and the elastic bodies alone, or
-        has all else in its key."""
+        """Share with ``other``, and with all that share with it, what depends on the surface and the elastic bodies
+        alone, or has all else in its key."""
         self._of_surface = other if other._of_surface is None else other._of_surface

@@ -42,8 +42,8 @@ STRIPS_SAFETY = 1.3
 # (constants.csv).
 LEAST_GROWTH = 1.5
 
-# Sampling error over its target, above which it misses the target [-]: a standard error of a few strips is itself not known
-# to 5 %. A choice: less states what is no difference.
+# Sampling error over its target, above which it misses the target [-]: a standard error of a few strips is itself not
+# known to 5 %. A choice: less states what is no difference.
 SAMPLING_ERROR_MISSED = 1.05
 
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
@@ -70,7 +70,8 @@ SAMPLING_MATTERS = 0.25
 
 @dataclass(frozen=True)
 class StandardError:
-    """Standard error of a mean over blocks: its ``value``, in the unit of what is averaged, and its degrees of freedom."""
+    """Standard error of a mean over blocks: its ``value``, in the unit of what is averaged, and its degrees of
+    freedom."""
 
     value: float
     freedom: int
@@ -144,8 +145,8 @@ def strips_for_error(
     growth: tuple[float, float] = SAMPLE_GROWTH,
     spare: tuple[float, float] = (STRIPS_SAFETY, LEAST_GROWTH),
 ) -> int:
-    """Return how many strips bring a standard ``error`` on ``count`` of them within ``target``, as it falls with the root
-    of their number: ``count`` if it is within.
+    """Return how many strips bring a standard ``error`` on ``count`` of them within ``target``, as it falls with the
+    root of their number: ``count`` if it is within.
 
     Parameters
     ----------
@@ -154,8 +155,8 @@ def strips_for_error(
     growth : largest factor on ``count``, of the ``first`` strips and of more
     spare : factor on what the error needs, and least factor on ``count``
 
-    If a sample counted as long enough whenever its blocks happen to scatter little, the stated error would be too small.
-    So the first strips count as enough only if even their `StandardError.cautious` error is within the target.
+    If a sample counted as long enough whenever its blocks happen to scatter little, the stated error would be too
+    small. So the first strips count as enough only if even their `StandardError.cautious` error is within the target.
     """
     reached = error.cautious if count == first else error.value
     if reached <= target and not at_least:
@@ -179,8 +180,8 @@ def student(freedom: float) -> float:
 
 
 def half_width_of_error(error: float, freedom: float) -> float:
-    """Return half of the width of the 95 % interval by a standard ``error`` of ``freedom`` degrees: Student's t times the
-    error; 0 without one, whatever the freedom."""
+    """Return half of the width of the 95 % interval by a standard ``error`` of ``freedom`` degrees: Student's t times
+    the error; 0 without one, whatever the freedom."""
     return student(freedom) * error if error else error
 
 
@@ -192,7 +193,8 @@ def ratio_of_changes(last: float, before: float, bounds: tuple[float, float], un
 
 
 def is_smooth_over_cells(heights: FloatArray) -> bool:
-    """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
-    one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""
+    """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as
+    over one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the
+    next."""
     one, two = (float(np.mean(np.square(heights - np.roll(heights, k, axis=1)))) for k in (1, 2))
     return two >= SMOOTH_RATIO * one

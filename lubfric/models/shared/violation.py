@@ -110,14 +110,14 @@ class Violation(Renamed):
 
     @property
     def text(self) -> str:
-        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: ", "note: "
-        or "not valid: "."""
+        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: ",
+        "note: " or "not valid: "."""
         return self.text_of(f"{self.value_in_words}{self.spaced_unit}")
 
     @property
     def kind(self) -> tuple[str, bool, bool, bool]:
-        """What violations have in common that one sentence may report together: the quantity, whether they are severe, or
-        notes, and on which side of the limit they are."""
+        """What violations have in common that one sentence may report together: the quantity, whether they are severe,
+        or notes, and on which side of the limit they are."""
         return self.what, self.severe, self.is_note, self.value > self.limit
 
     @property
@@ -148,9 +148,9 @@ class Violation(Renamed):
         return distinct_texts(self.value, self.limit, _in_digits, least=3)
 
     def text_of(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
-        """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
-        3 m/s)"; ``place``, ``place_of_recommendation``: where the consequence and the recommendation hold as they are
-        stated, if not everywhere."""
+        """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 %
+        (at 3 m/s)"; ``place``, ``place_of_recommendation``: where the consequence and the recommendation hold as they
+        are stated, if not everywhere."""
         return f"{self.head}: {self.statement(values, place, place_of_recommendation)}"
 
     def statement(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
@@ -183,7 +183,8 @@ def refused(violations: tuple[Violation, ...], *, accept: bool, result: object =
 
 
 def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
-    """Return the violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
+    """Return the violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error``
+    refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     checked = point if refused is None else refused
     return () if checked is None else checked.validity
@@ -208,8 +209,8 @@ def gathered(
     points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[str, ...]:
     """Return one sentence for each assumption that is violated anywhere: at how many points, from where to where, and
-    the smallest and the largest value with their places; what it does and what to do: of the worst value, with the places
-    where that is the same, if not all.
+    the smallest and the largest value with their places; what it does and what to do: of the worst value, with the
+    places where that is the same, if not all.
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
@@ -236,8 +237,8 @@ def _groups(points: Iterable[tuple[Place, Iterable[Violation]]]) -> list[list[tu
 
 
 def _alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> tuple[list[Place], list[Place]]:
-    """Return the places of a ``group`` with the consequence of its ``worst`` violation, and those with its recommendation,
-    both sorted."""
+    """Return the places of a ``group`` with the consequence of its ``worst`` violation, and those with its
+    recommendation, both sorted."""
     pairs = list(group)
     return (
         sorted(place for place, violation in pairs if violation.consequence == worst.consequence),
@@ -290,9 +291,9 @@ class GatheredTexts:
 
 
 def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts]:
-    """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of a
-    table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of this value,
-    with the points where they are the same, if not all. Points are named by their number, from 1."""
+    """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of
+    a table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of this
+    value, with the points where they are the same, if not all. Points are named by their number, from 1."""
     lines = []
     groups = [dict(group) for group in _groups(enumerate(rows, 1))]
     for group in sorted(groups, key=len, reverse=True):
@@ -311,20 +312,23 @@ def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts
 
 
 def _in_order(group: dict[int, Violation]) -> list[tuple[int, Violation]]:
-    """Return the pairs (number, violation) of a ``group`` by the values as they are printed; [] where one is not finite."""
+    """Return the pairs (number, violation) of a ``group`` by the values as they are printed; [] where one is not
+    finite."""
     if not all(math.isfinite(violation.value) for violation in group.values()):
         return []
     return sorted(group.items(), key=lambda pair: (float(pair[1].value_in_words), pair[0]))
 
 
 def _worst_in_table(group: dict[int, Violation]) -> tuple[int, Violation]:
-    """Return the number and the violation whose value is farthest beyond its limit; the first where that is not known."""
+    """Return the number and the violation whose value is farthest beyond its limit; the first where that is not
+    known."""
     ordered = _in_order(group) or list(group.items())[:1]
     return ordered[0 if ordered[0][1].is_below else -1]
 
 
 def _range_in_table(group: dict[int, Violation], at_worst: int) -> str:
-    """Return the smallest and the largest value of a ``group`` with the number of the worst, or the one value of all."""
+    """Return the smallest and the largest value of a ``group`` with the number of the worst, or the one value of
+    all."""
     worst = group[at_worst]
     ordered = _in_order(group)
     ends = [ordered[end][1].value_in_words for end in (0, -1)] if ordered else []
@@ -337,8 +341,8 @@ def _range_in_table(group: dict[int, Violation], at_worst: int) -> str:
 
 
 def numbers_in_words(numbers: list[int], count: int) -> str:
-    """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"; of many scattered ones how many
-    they are: "At 20 of 41 points"."""
+    """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"; of many scattered ones
+    how many they are: "At 20 of 41 points"."""
     if count == 1:
         return "At the point"
     if len(numbers) == 1:
@@ -363,8 +367,8 @@ def at_value(value: float, unit: str, name: str) -> str:
 
 
 def at_values(values: Sequence[float], unit: str, name: str) -> str:
-    """Return the place of several ``values`` of a curve: "at 3 speeds, 0.1 to 1 m/s", "at 2 speeds, 0.1 and 1 m/s"; of one as
-    `at_value`."""
+    """Return the place of several ``values`` of a curve: "at 3 speeds, 0.1 to 1 m/s", "at 2 speeds, 0.1 and 1 m/s"; of
+    one as `at_value`."""
     if len(values) == 1:
         return at_value(values[0], unit, name)
     between = "and" if len(values) == 2 else "to"
