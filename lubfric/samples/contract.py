@@ -80,6 +80,10 @@ class Sample(ABC):
         Every n-th of its cells, along each axis, gives the coarse cells to compare it with (`Cells.thinned`).
         """
 
+    def piece_is_strip(self, length: float) -> bool:
+        """Return whether a piece of this ``length`` [correlation lengths] is all of the strip of the same number."""
+        return False
+
     @abstractmethod
     def of_body(self, body: int) -> Sample:
         """Return the same strips of one of two rough bodies, number 0 or 1, with the other one flat."""

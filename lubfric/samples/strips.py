@@ -259,12 +259,20 @@ class MeasuredStrips(Sample):
     def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         window = self._columns(self.starts[index])
         blend = self._blend
-        unit = WINDOW_ROWS_MULTIPLE * self.cells.coarsening[1]
-        wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
-        rows = min(window.shape[1] - blend, wanted) // unit * unit
-        first = (window.shape[1] - rows - blend) // 2
+        rows = self._rows_of_piece(length)
+        first = 0 if self.piece_is_strip(length) else (window.shape[1] - rows - blend) // 2
         piece = joined_maps([window[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
+
+    def piece_is_strip(self, length: float) -> bool:
+        (_, fy) = self.cells.coarsening
+        return self._rows_of_piece(length) == self.rows_of(1) * fy
+
+    def _rows_of_piece(self, length: float) -> int:
+        """Return the number of native rows of a piece of this ``length`` [correlation lengths]."""
+        unit = WINDOW_ROWS_MULTIPLE * self.cells.coarsening[1]
+        wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
+        return min(self.surface.shape[1] - self._blend, wanted) // unit * unit
 
     def _rows(self, native_rows: int) -> int:
         """Return the number of cells along y on so many ``native_rows`` of the map: a `WINDOW_ROWS_MULTIPLE`."""

@@ -70,6 +70,10 @@ UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
     "cells; set a larger numerics.max_work to reduce it, if the work ended the solve"
 )
+ENDED_CELLS = (
+    "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical error above "
+    "numerics.tolerance"
+)
 SMALLER_PATCH = "give a smaller patch (contact.shape)"
 PATCH_IN_PLACE = "use a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
@@ -168,6 +172,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
                 *_sample_notes(prepared, sampling_error, levels),
                 *filter(None, [limit_in_words(by_limit), of_heat]),
                 *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
+            *([ENDED_CELLS] if levels.has_ended_cells else []),
                 *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
             ),
         ),

@@ -134,6 +134,7 @@ class Levels:
     length : of all strips [m]
     has_unsolved_cells : whether shorter cells were needed and did not converge
     has_too_many_cells : whether they were needed and are too many
+    has_ended_cells : whether they were needed and did not pay
     note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
     by_summits : the correction of f by the summits, relative to the f of this estimate
     """
@@ -155,6 +156,7 @@ class Levels:
     length: float
     has_unsolved_cells: bool = False
     has_too_many_cells: bool = False
+    has_ended_cells: bool = False
     note: str = ""
     by_summits: float = 0.0
 
@@ -319,6 +321,7 @@ def levels_of(
         pieces=shorter.pieces,
         has_unsolved_cells=shorter.has_unsolved,
         has_too_many_cells=shorter.has_too_many,
+        has_ended_cells=shorter.has_ended,
         shortest=shorter.shortest,
         finest=shorter.strip or first,
         sampling_error=sampling_error,

@@ -36,6 +36,7 @@ from .strip import (
     StripSolution,
     changes_of,
     error_by_cells,
+    expected_error_after,
     line_contact_of,
     solve_strip,
 )
@@ -71,6 +72,10 @@ FACTORISATIONS_OF_START = 100
 # 500. A choice: more solves a few of them, for ten times the work.
 FACTORISATIONS_OF_SHORTER_CELLS = 90
 
+# LU factorisations of a short strip on the shortest cells, at most, all from the solution on longer ones [-]: on 66,560 cells of a
+# measured map 17 to 36 where it converges, and at 40 it still does. A choice: other starts take as many again, and led nowhere.
+FACTORISATIONS_OF_LAST_LEVEL = 60
+
 # Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`).
 # Half and twice change the interval by 0.02 %.
 LEAST_STRIP_ERROR = 2e-3
@@ -100,6 +105,14 @@ PIECES_SHARE = 0.6
 
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
+
+# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: 1 to 3
+# on three measured maps, most of all where thin films carry the load.
+FINER_WORK = 2.0
+
+# Newton steps that a solve on cells half as long is expected to take [-], whatever the longer ones took: 10 to 36 of 12 solves on
+# the same.
+STEPS_ON_FINER_CELLS = 25
 
 # Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in
 # the Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the
@@ -147,6 +160,7 @@ class ShorterCells:
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
     has_too_many : whether shorter cells were needed, and are more than `MOST_GRID_CELLS`
+    has_ended : whether shorter cells were needed, and did not pay (`_pays`)
     """
 
     pieces: tuple[Piece, ...] = ()
@@ -157,6 +171,7 @@ class ShorterCells:
     error: float
     has_unsolved: bool = False
     has_too_many: bool = False
+    has_ended: bool = False
 
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
@@ -170,8 +185,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
       heights are not smooth over a cell. Where it is not solved, because it does not converge or has too many cells, the
       error is `UNSOLVED_FACTOR` times the estimate.
-    - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_OF_POINT`
-      allows it. What it estimates from one short piece may be off by half.
+    - The fourth level is needed where the third leaves more than the tolerance, and solved where it pays (`_pays`). What it
+      estimates from one short piece may be off by half.
     - A single patch has one piece: all of it, on shorter and shorter cells (`_patch_on_shorter_cells`).
     """
     scene = prepared.scene
@@ -200,12 +215,19 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
     floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0].on_shortest_cells))
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), floor)
-    if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
+    if error <= tolerance or halvings < 2:
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
+    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
+    expected = _work_of_last_level(prepared, pieces[0], is_continued=_continues_strip(prepared))
+    changes = by_longer, change
+    most = PIECES_SHARE * work_left()
+    if scene.numerics.max_work is None:
+        most = min(most, MOST_WORK_OF_POINT - spent)
+    if not _pays(tolerance, changes, spent=spent, expected=expected, most=most, left=halvings - 1):
+        return ShorterCells(pieces=pieces, sampling_error=scatter, error=error, has_ended=True)
     try:
-        with limited_work(PIECES_SHARE * work_left()):
-            slope = pairs[0].resolved.slope
-            shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
+        with limited_work(most):
+            shortest = _last_level(prepared, speed, pieces[0], slope=pairs[0].resolved.slope)
     except (ConvergenceError, TooManyCellsError) as failure:
         has_too_many = isinstance(failure, TooManyCellsError)
         return ShorterCells(
@@ -225,30 +247,126 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
 
 
+def _pays(
+    tolerance: float,
+    changes: Sequence[float],
+    *,
+    spent: float,
+    expected: float,
+    most: float,
+    most_halvings: int = 1,
+    left: float = math.inf,
+) -> bool:
+    """Return whether cells half as long are worth their ``expected`` work [s] after ``changes`` of f from cells to cells, on which a
+    point has ``spent`` so much [s].
+
+    They are solved within ``most`` of the work [s]: where they at most double the work of the point, or where they, or up to
+    ``most_halvings`` in all, lead to an error within ``tolerance``, if the changes go on to fall as the last two did. ``left``: as of
+    `error_by_cells`, before them.
+    """
+    if expected > most:
+        return False
+    if expected <= spent:
+        return True
+    times_work = 4 * FINER_WORK
+    return any(
+        expected_error_after(changes, halvings, left) <= tolerance
+        for halvings in range(1, most_halvings + 1)
+        if expected * sum(times_work**k for k in range(halvings)) <= most
+    )
+
+
+def _continues_strip(prepared: Prepared) -> bool:
+    """Return whether the shortest cells are solved on the strip itself, because it is no longer than their piece."""
+    has_cells_left = surface_and_map_coarsening(prepared, 0)[1] != (1, 1)
+    return has_cells_left and prepared.sample.piece_is_strip(LENGTH_OF_LAST_PIECE)
+
+
+def _work_of_last_level(prepared: Prepared, piece: Piece, *, is_continued: bool) -> float:
+    """Return the expected work [s] of the last level: of a shorter piece on all of its cells, or of the ``piece`` itself on shorter
+    ones."""
+    sample = prepared.sample
+    last = piece.on_shortest_cells
+    length = last.result.load_at.size * last.result.spacing[1]
+    share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
+    before = 0.0 if is_continued else sum(strip.work for strip in piece)
+    return share * (before + _expected_work(last, 4.0))
+
+
+def _expected_work(longer: StripSolution, times_cells: float) -> float:
+    """Return the expected work [s] of a solve on so many ``times_cells`` as those of the strip on ``longer`` cells."""
+    work_of_step = longer.work / max(longer.result.report.iterations, 1)
+    return STEPS_ON_FINER_CELLS * FINER_WORK * times_cells * work_of_step
+
+
+def _last_level(prepared: Prepared, speed: float, piece: Piece, *, slope: float) -> Piece:
+    """Return the piece of the last level at ``speed`` [m/s], on cells a quarter as long as those of the strips: a short one, or
+    ``piece``, all of a short strip, continued. Raises as `_refined`."""
+    if not _continues_strip(prepared):
+        return _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
+    sample = prepared.sample
+    (fx, fy) = sample.cells.coarsening
+    coarsening = max(1, fx // 2), max(1, fy // 2)
+    contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
+    surface = map_of_contact(prepared, contact)
+    check_number_of_cells(surface, line_contact_of(prepared.scene, speed), (1, 1))
+    shortest = solve_strip(
+        prepared.scene,
+        surface,
+        speed,
+        start=piece.on_shortest_cells,
+        most=FACTORISATIONS_OF_LAST_LEVEL,
+        most_from_start=FACTORISATIONS_OF_LAST_LEVEL,
+        memo=prepared.memo,
+    )
+    return Piece((*piece, replace(shortest, slope=slope)))
+
+
 def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids, error: float) -> ShorterCells:
     """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative ``error``.
 
-    Its cells are `shortened` until the estimated error is within ``numerics.tolerance``, with ``numerics.grid = "given"`` down to
-    the map's own. Where shorter ones are needed, and do not converge, are too many, or take more than `MOST_WORK_OF_POINT`
-    in a scene without ``numerics.max_work``, those before count, and the error is `UNSOLVED_FACTOR` times the estimate from them.
+    Its cells are `shortened` until the estimated error is within ``numerics.tolerance`` or shorter ones do not pay (`_pays`), with
+    ``numerics.grid = "given"`` down to the map's own. Where shorter ones are needed, and do not converge, are too many, or take more
+    than `MOST_WORK_OF_POINT` in a scene without ``numerics.max_work``, those before count, and the error is `UNSOLVED_FACTOR` times
+    the estimate from them.
     """
     scene = prepared.scene
-    enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
+    has_all = scene.numerics.grid == "given"
+    enough = 0.0 if has_all else scene.numerics.tolerance
     (surface, map_coarsening) = surface_and_map_coarsening(prepared, 0)
     ladder = [pair.longer, pair.resolved]
-    is_limited = scene.numerics.max_work is None and scene.numerics.grid != "given"
-    most = MOST_WORK_OF_POINT - pair.resolved.work if is_limited else math.inf
+    spent = pair.resolved.work
+    is_limited = scene.numerics.max_work is None and not has_all
+    most = MOST_WORK_OF_POINT - spent if is_limited else math.inf
     by_cells = math.inf  # one shorter length of cells is solved in any case
     has_unsolved = False
     has_too_many = False
+    has_ended = False
     with limited_work(min(PIECES_SHARE * work_left(), most)):
         while (
             shorter_cells := shortened(scene, prepared.sample, map_coarsening)
         ) != map_coarsening and by_cells > enough:
-            map_coarsening = shorter_cells
-            has_too_many = has_too_many_cells(surface, ladder[-1].problem.line, map_coarsening)
+            has_too_many = has_too_many_cells(surface, ladder[-1].problem.line, shorter_cells)
             if has_too_many:
                 break
+            times_cells = math.prod(map_coarsening) / math.prod(shorter_cells)
+            expected = _expected_work(ladder[-1], times_cells)
+            is_first = len(ladder) == 2
+            has_ended = not (
+                has_all
+                or is_first
+                or _pays(
+                    enough,
+                    changes_of(ladder),
+                    spent=spent,
+                    expected=expected,
+                    most=work_left(),
+                    most_halvings=math.ceil(math.log2(max(map_coarsening))),
+                )
+            )
+            if has_ended:
+                break
+            map_coarsening = shorter_cells
             solve = partial(solve_strip, scene, surface, speed, map_coarsening=map_coarsening, memo=prepared.memo)
             try:
                 shorter = solve(start=ladder[-1], most=FACTORISATIONS_OF_SHORTER_CELLS)
@@ -256,6 +374,7 @@ def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGr
                 has_unsolved = True
                 break
             ladder.append(shorter)
+            spent += shorter.work
             by_cells = error_by_cells(changes_of(ladder))
             error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(shorter))
     if has_unsolved or has_too_many:
@@ -269,6 +388,7 @@ def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGr
         error=error,
         has_unsolved=has_unsolved,
         has_too_many=has_too_many,
+        has_ended=has_ended,
     )
 
 
@@ -305,15 +425,6 @@ def _third_level(
     if _by_boundary_film([pair.resolved for pair in pairs]) > SPEED_MATTERS:
         return _pieces(prepared, speed, None)
     return _at_fixed_speed(prepared, speed)
-
-
-def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequence[Piece]) -> bool:
-    """Return whether the fourth level would take a point beyond `MOST_WORK_OF_POINT`."""
-    finest = pieces[0].on_shortest_cells
-    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    length = finest.result.load_at.size * finest.result.spacing[1]
-    share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
-    return spent + 4 * share * finest.work > MOST_WORK_OF_POINT
 
 
 def _by_boundary_film(strips: Sequence[StripSolution]) -> float:

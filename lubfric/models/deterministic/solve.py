@@ -121,17 +121,20 @@ def solve_point(
     least: float = 0.0,
     tolerance: float = SOLVE_RESIDUAL,
     most: int = MOST_FACTORISATIONS,
+    most_from_start: int = FACTORISATIONS_FROM_NEARBY,
 ) -> DeterministicResult:
     """Solve gap, pressure and friction of ``problem`` on its own grid.
 
     The `WAYS` are tried in turn until one converges; together they take at most ``most`` factorisations. ``report.notes``
-    says which one it was. From ``start``, a state on the same grid, Newton's method ends where a step is shorter than
-    ``least``. Converged when the largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises
+    says which one it was. From ``start``, a state on the same grid, Newton's method ends after ``most_from_start`` factorisations, or
+    where a step is shorter than ``least``. Converged when the largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises
     `ConvergenceError` with report and result.
     """
     work = Work(most)
     tried: list[tuple[str, NewtonResult]] = []
-    search = PointSearch(problem=problem, start=start, least=least, tolerance=tolerance, work=work)
+    search = PointSearch(
+        problem=problem, start=start, least=least, most_from_start=most_from_start, tolerance=tolerance, work=work
+    )
     for attempt in _attempts(search):
         tried.append(attempt)
         if attempt[1].residual <= tolerance:
@@ -170,6 +173,7 @@ class PointSearch:
     problem : to be solved
     start : a state on the same grid; None: there is none
     least : part of a Newton step from there [-], below which it is given up
+    most_from_start : factorisations from there, at most
     tolerance : on the largest residual
     work : what all ways together have taken
     faster : solutions at higher speeds, by their speed over that of the problem, that one way leaves to a later one
@@ -178,6 +182,7 @@ class PointSearch:
     problem: Problem
     start: State | None
     least: float
+    most_from_start: int
     tolerance: float
     work: Work
     faster: dict[float, State] = field(default_factory=dict)
@@ -211,7 +216,7 @@ def _from_start(search: PointSearch) -> Iterator[NewtonResult]:
         search.start,
         search.work,
         tolerance=search.tolerance,
-        most=FACTORISATIONS_FROM_NEARBY,
+        most=search.most_from_start,
         least=search.least,
         patience=search.patience,
         ends_unsolved=search.is_soft,

@@ -18,7 +18,7 @@ from ..shared import Memo, film_lubricant, ratio_of_changes
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble, share_moved_by_hardness
-from .solve import MOST_FACTORISATIONS, refined_start, solve_point
+from .solve import FACTORISATIONS_FROM_NEARBY, MOST_FACTORISATIONS, refined_start, solve_point
 from .state import evaluated
 from .time_and_place import Places, TimeAndPlace
 
@@ -146,6 +146,7 @@ def solve_strip(
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
     most: int = MOST_FACTORISATIONS,
+    most_from_start: int = FACTORISATIONS_FROM_NEARBY,
     memo: Memo | None = None,
 ) -> StripSolution:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
@@ -156,7 +157,7 @@ def solve_strip(
     cells twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the
     residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2,
     where both bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU
-    factorisations, at most. ``memo``: what the bodies' other problems share (`Problem`).
+    factorisations, at most; ``most_from_start``: of these from ``start``. ``memo``: what the bodies' other problems share (`Problem`).
 
     Raises `InputError` and `ConvergenceError`.
     """
@@ -182,7 +183,14 @@ def solve_strip(
         result = solve_point(problem, tolerance=tolerance, most=most)
     else:
         near = refined_start(start.problem, problem, start.result)
-        result = solve_point(problem, start=near.state, least=near.least_step, tolerance=tolerance, most=most)
+        result = solve_point(
+            problem,
+            start=near.state,
+            least=near.least_step,
+            tolerance=tolerance,
+            most=most,
+            most_from_start=most_from_start,
+        )
     work += work_of(result)
     if find_slope:
         heavier = problem.at_load(SECOND_LOAD * problem.load)
@@ -279,6 +287,19 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
         return changes[-1] * (ratio / (1 - ratio))
     ratio = ratio_of_changes(2.0 * changes[-1], before, (CHANGE_RATIOS[0], GROWING), UNKNOWN_RATIO)
     return changes[-1] * sum(ratio ** (k + 1) for k in range(int(left)))
+
+
+def expected_error_after(changes: Sequence[float], halvings: int, left: float = math.inf) -> float:
+    """Return the expected relative error of f after so many ``halvings`` of the last of several grids, if its ``changes`` from grid to
+    grid go on to fall as the last two did (`CHANGE_RATIOS`; `UNKNOWN_RATIO` from one change). ``left``: as of `error_by_cells`,
+    before these halvings."""
+    ratio = UNKNOWN_RATIO
+    if len(changes) > 1 and changes[-2] > 0:
+        ratio = min(max(changes[-1] / changes[-2], CHANGE_RATIOS[0]), CHANGE_RATIOS[1])
+    series = ratio / (1 - ratio)
+    if math.isfinite(left):
+        series = sum(ratio**k for k in range(1, max(int(left) - halvings, 1) + 1))
+    return changes[-1] * ratio**halvings * series
 
 
 def changes_of(strips: Sequence[StripSolution]) -> list[float]:
