@@ -110,6 +110,10 @@ UNSOLVED_FACTOR = 2.0
 # on three measured maps, most of all where thin films carry the load.
 FINER_WORK = 2.0
 
+# Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller. A choice
+# between time and that error.
+CHEAP_WORK = 5.0
+
 # Newton steps that a solve on cells half as long is expected to take [-], whatever the longer ones took: 10 to 36 of 12 solves on
 # the same.
 STEPS_ON_FINER_CELLS = 25
@@ -260,13 +264,13 @@ def _pays(
     """Return whether cells half as long are worth their ``expected`` work [s] after ``changes`` of f from cells to cells, on which a
     point has ``spent`` so much [s].
 
-    They are solved within ``most`` of the work [s]: where they at most double the work of the point, or where they, or up to
-    ``most_halvings`` in all, lead to an error within ``tolerance``, if the changes go on to fall as the last two did. ``left``: as of
+    They are solved within ``most`` of the work [s]: where they at most double the work of the point, or take no more than
+    `CHEAP_WORK`, or where they, or up to ``most_halvings`` in all, lead to an error within ``tolerance``, if the changes go on to fall as the last two did. ``left``: as of
     `error_by_cells`, before them.
     """
     if expected > most:
         return False
-    if expected <= spent:
+    if expected <= max(spent, CHEAP_WORK):
         return True
     times_work = 4 * FINER_WORK
     return any(

@@ -1,0 +1,86 @@
+"""Short strips of a measured map: which shorter cells are solved, counted, and whether the stated error covers them."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.models.deterministic import shorter_cells
+from lubfric.models.deterministic.strip import expected_error_after
+
+SPEED = 0.03
+
+
+@pytest.fixture
+def scene(tmp_path):
+    """A map of 80 x 48 µm, smooth over its cells, which a strip of six correlation lengths takes up along y."""
+    rough = {"sq": 8e-8, "correlation_length": 8e-6, "acf": "gaussian", "seed": 3}
+    np.save(tmp_path / "map.npy", lubfric.generate_surface((160, 96), 0.5e-6, **rough).heights)
+    paper = lubfric.load_scene("paper")
+    bodies = paper.bodies
+    return lubfric.load_scene(
+        {
+            "bodies": {
+                "radius": bodies.radius,
+                "width": bodies.width,
+                "load": bodies.load,
+                "e_prime": bodies.e_prime,
+                "boundary_friction_coefficient": bodies.boundary_friction_coefficient,
+                "boundary_film": 20e-9,
+            },
+            "lubricant": {
+                "viscosity": paper.lubricant.viscosity,
+                "pressure_viscosity_coefficient": paper.lubricant.pressure_viscosity_coefficient,
+                "limiting_stress_coefficient": "f_b",
+            },
+            "motion": {"entrainment_speed": SPEED},
+            "surface": {"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "extension": "mirror"},
+            "numerics": {"model": "deterministic", "accept": True},
+        }
+    )
+
+
+def solved(scene, monkeypatch):
+    """The result, and the shapes of the solves of shorter cells, in their order."""
+    shapes = []
+
+    def solve(*arguments, **keywords):
+        strip = shorter_cells_solve(*arguments, **keywords)
+        shapes.append(strip.problem.heights.shape)
+        return strip
+
+    shorter_cells_solve = shorter_cells.solve_strip
+    with monkeypatch.context() as patch:
+        patch.setattr(shorter_cells, "solve_strip", solve)
+        return lubfric.friction(scene), shapes
+
+
+def test_the_shortest_cells_of_a_short_strip_continue_its_own_solution(scene, monkeypatch):
+    """They are one more solve, on the strip itself: its other lengths of cells are not solved again."""
+    (result, shapes) = solved(scene, monkeypatch)
+    (last, before) = shapes[-1], shapes[0]
+    assert last[1] == 2 * before[1]
+    assert [shape[1] for shape in shapes].count(last[1]) == 1
+    assert [shape for shape in shapes if shape == before] == [before]
+    assert result.uncertainty.numerical < 0.1
+
+
+def test_cells_that_do_not_pay_are_not_solved_and_the_error_covers_them(scene, monkeypatch):
+    """Where f changes as much from cells to cells as before, one more halving does not lead to the tolerance."""
+    (complete, shapes) = solved(scene, monkeypatch)
+    monkeypatch.setattr(shorter_cells, "CHEAP_WORK", 0.0)
+    (ended, fewer) = solved(scene, monkeypatch)
+    assert fewer == shapes[:-1]
+    assert abs(complete.coefficient / ended.coefficient - 1) < ended.uncertainty.numerical
+    assert complete.uncertainty.numerical < ended.uncertainty.numerical
+    assert "shorter cells were not solved" in ended.uncertainty.text
+    assert "shorter cells were not solved" not in complete.uncertainty.text
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5, 0.7])
+def test_the_expected_error_is_the_rest_of_a_geometric_series(ratio):
+    """Oracle: the sum of the changes that follow, without end and with three halvings left."""
+    changes = [ratio**k for k in range(3)]
+    rest = sum(ratio**k for k in range(4, 200))
+    assert expected_error_after(changes, 1) == pytest.approx(rest)
+    assert expected_error_after(changes, 2) == pytest.approx(rest - ratio**4)
+    assert expected_error_after(changes, 1, 3) == pytest.approx(ratio**4 + ratio**5)
