@@ -125,7 +125,9 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         assert bool(result.shortest) == (order < 2)
         assert abs(result.numbers["coefficient"] / truth - 1) <= 1.1 * result.numerical <= 1.1 * most
     spent = sum(strip.work for piece in result.pieces for strip in piece) + sum(p.resolved.work for p in result.pairs)
-    monkeypatch.setattr(shorter, "MOST_WORK_OF_POINT", spent + 3 * solved.work)
+    monkeypatch.setattr(shorter, "FINER_WORK", 1.0)
+    monkeypatch.setattr(shorter, "STEPS_ON_FINER_CELLS", solved.result.report.iterations)
+    monkeypatch.setattr(shorter, "MOST_WORK_OF_POINT", spent + 5.5 * solved.work)  # .64 and 1 of 3 + 4 solves
     for rows in (100, 25):  # a piece of 22 correlation lengths; of 6, which is no longer than the last one
         solved = replace(
             pair.resolved,

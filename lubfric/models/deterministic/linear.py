@@ -18,7 +18,7 @@ from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
-from ..._base import FloatArray, IntArray
+from ..._base import BoolArray, FloatArray, IntArray
 from ...film import line_peak_pressure
 from .flow import Stencil, derivatives
 from .problem import Problem
@@ -126,7 +126,7 @@ class System:
         self.local = patterns.rows(local)  # all but the deflection and h0
         self.by_h = patterns.rows(by_h)
         self.by_approach = self.by_h @ np.full(at.gap.size, self.film)
-        flow_of_first_order(together)
+        flow_of_first_order(together, except_from=dented if at.history is None else None)
         self.order = patterns.order
         matrix = patterns.ordered(_notable(together) if follows_lubricant(at) else together)
         ordered = {"permc_spec": "NATURAL", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
@@ -219,16 +219,22 @@ class System:
         return self.change(unknowns), iterations
 
 
-def flow_of_first_order(data: FloatArray) -> None:
-    """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place.
+def flow_of_first_order(data: FloatArray, except_from: BoolArray | None = None) -> None:
+    """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place, but where that cell
+    is in ``except_from`` (nx, ny).
 
     The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single
     precision loses less. A roller of 1 GPa at rest at 10, 3, 1, 0.3 m/s takes 99, 300, 555, 763 iterations of GMRES
-    with the second-order flow, and 93, 232, 441, 788 with this one, in 22 % less time.
+    with the second-order flow, and 93, 232, 441, 788 with this one, in 22 % less time. Cells that have yielded are
+    excepted: the unknown there is a dent, which nothing but this flow joins to the next cells. On 261 x 64 cells of a measured map,
+    of which 0.5 % have yielded, 869 iterations in 33 Newton steps become 61 in 15.
     """
     far = Stencil.NAMES.index("WW")
-    data[Stencil.NAMES.index("W")] += data[far]
-    data[far] = 0.0
+    replaced = data[far].copy()
+    if except_from is not None:
+        replaced[2:][except_from[:-2]] = 0.0
+    data[Stencil.NAMES.index("W")] += replaced
+    data[far] -= replaced
 
 
 def _notable(data: FloatArray) -> np.ndarray:
