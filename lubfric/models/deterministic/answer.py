@@ -172,7 +172,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
                 *_sample_notes(prepared, sampling_error, levels),
                 *filter(None, [limit_in_words(by_limit), of_heat]),
                 *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
-            *([ENDED_CELLS] if levels.has_ended_cells else []),
+                *([ENDED_CELLS] if levels.has_ended_cells else []),
                 *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
             ),
         ),
