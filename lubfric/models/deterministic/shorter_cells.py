@@ -106,7 +106,7 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
 
-# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: 1 to 3
+# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: measured 1 to 3
 # on three measured maps, most of all where thin films carry the load.
 FINER_WORK = 2.0
 
