@@ -446,7 +446,9 @@ def _words_of_levels(levels: Levels) -> str:
             f", with the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
         )
         if levels.shortest:
-            strips += f" and of cells {2 * times} times as short on a shorter piece"
+            of_last = levels.shortest.on_shortest_cells.result.spacing
+            times = round(max(long / short for long, short in zip(of_strips, of_last)))
+            strips += f" and of cells {times} times as short on one of them, or a part of it"
     if not levels.control_strips:
         return f"solved together with the contact on {strips}"
     return f"solved together with the contact: the difference from Eq. (8) on {strips}"

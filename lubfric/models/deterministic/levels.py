@@ -290,7 +290,7 @@ def levels_of(
     as_expected = changed_as_expected(estimate.numbers, shorter.change, rolling)
     of_third_level = [(piece.on_cells_of_strips, piece.on_shortest_cells) for piece in shorter.pieces]
     third = changed_by_pieces(prepared, as_expected, of_third_level)
-    fourth = changed_by_pieces(prepared, third, [shorter.shortest.last_two] if shorter.shortest else [])
+    fourth = changed_by_pieces(prepared, third, [shorter.shortest.from_half_cells] if shorter.shortest else [])
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error_of_f, replace(shorter.sampling_error, value=shorter.sampling_error.value * f))

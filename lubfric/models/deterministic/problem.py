@@ -243,12 +243,6 @@ def _columns_taken(
     return taken + times * np.arange(first, last + 1)
 
 
-def has_too_many_cells(surface: Surface, line: LineContact, map_coarsening: tuple[int, int]) -> bool:
-    """Return whether `lay_out` refuses ``surface`` on these cells, because there are more of them than `MOST_GRID_CELLS`."""
-    (fx, fy) = map_coarsening
-    return _columns_taken(surface, line, fx).size * (surface.shape[1] // fy) > MOST_GRID_CELLS
-
-
 def why_too_many(cells: float) -> str:
     """Return why a strip of about so many ``cells`` is not solved, as text; "" if it is."""
     if cells <= MOST_GRID_CELLS:

@@ -6,7 +6,7 @@ curve share them; these follow from the scene alone.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -29,7 +29,7 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips
 from .counted_work import MOST_WORK_OF_POINT
-from .problem import are_soft, check_number_of_cells, has_too_many_cells
+from .problem import are_soft, check_number_of_cells
 from .rough_bodies import map_of_contact
 from .strip import (
     UNKNOWN_SLOPE,
@@ -108,7 +108,7 @@ UNSOLVED_FACTOR = 2.0
 
 # Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: measured 1 to 3
 # on three measured maps, most of all where thin films carry the load.
-FINER_WORK = 2.0
+FINER_WORK = 1.5
 
 # Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller. A choice
 # between time and that error.
@@ -143,6 +143,11 @@ class Piece(tuple[StripSolution, ...]):
     def last_two(self) -> tuple[StripSolution, StripSolution]:
         """The piece on cells twice as long as the shortest, and on these."""
         return self[-2], self[-1]
+
+    @property
+    def from_half_cells(self) -> tuple[StripSolution, StripSolution]:
+        """The piece on cells half as long as those of the strips, and on the shortest."""
+        return self[2], self[-1]
 
     @property
     def change(self) -> float:
@@ -215,6 +220,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     except TooManyCellsError:
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_too_many=True)
     change = abs(float(np.mean([piece.change for piece in pieces])))  # its error is reported
+    if is_continued := _continues_strip(prepared):  # that of a short strip is not
+        (change,) = changes_of(pieces[0].last_two)
     coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
     floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0].on_shortest_cells))
@@ -222,16 +229,18 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     if error <= tolerance or halvings < 2:
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    expected = _work_of_last_level(prepared, pieces[0], is_continued=_continues_strip(prepared))
-    changes = by_longer, change
     most = PIECES_SHARE * work_left()
     if scene.numerics.max_work is None:
         most = min(most, MOST_WORK_OF_POINT - spent)
-    if not _pays(tolerance, changes, spent=spent, expected=expected, most=most, left=halvings - 1):
+    if is_continued:
+        return _strip_on_shorter_cells(prepared, speed, pieces, scatter, error=error, spent=spent, most=most)
+    expected = _work_of_last_level(sample, pieces[0])
+    if not _pays(tolerance, (by_longer, change), spent=spent, expected=expected, most=most, left=halvings - 1):
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error, has_ended=True)
     try:
         with limited_work(most):
-            shortest = _last_level(prepared, speed, pieces[0], slope=pairs[0].resolved.slope)
+            slope = pairs[0].resolved.slope
+            shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
     except (ConvergenceError, TooManyCellsError) as failure:
         has_too_many = isinstance(failure, TooManyCellsError)
         return ShorterCells(
@@ -286,15 +295,12 @@ def _continues_strip(prepared: Prepared) -> bool:
     return has_cells_left and prepared.sample.piece_is_strip(LENGTH_OF_LAST_PIECE)
 
 
-def _work_of_last_level(prepared: Prepared, piece: Piece, *, is_continued: bool) -> float:
-    """Return the expected work [s] of the last level: of a shorter piece on all of its cells, or of the ``piece`` itself on shorter
-    ones."""
-    sample = prepared.sample
+def _work_of_last_level(sample: Sample, piece: Piece) -> float:
+    """Return the expected work [s] of the last level, a part of the ``piece`` on all of its cells and on shorter ones."""
     last = piece.on_shortest_cells
     length = last.result.load_at.size * last.result.spacing[1]
     share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
-    before = 0.0 if is_continued else sum(strip.work for strip in piece)
-    return share * (before + _expected_work(last, 4.0))
+    return share * (sum(strip.work for strip in piece) + _expected_work(last, 4.0))
 
 
 def _expected_work(longer: StripSolution, times_cells: float) -> float:
@@ -303,97 +309,182 @@ def _expected_work(longer: StripSolution, times_cells: float) -> float:
     return STEPS_ON_FINER_CELLS * FINER_WORK * times_cells * work_of_step
 
 
-def _last_level(prepared: Prepared, speed: float, piece: Piece, *, slope: float) -> Piece:
-    """Return the piece of the last level at ``speed`` [m/s], on cells a quarter as long as those of the strips: a short one, or
-    ``piece``, all of a short strip, continued. Raises as `_refined`."""
-    if not _continues_strip(prepared):
-        return _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
-    sample = prepared.sample
-    (fx, fy) = sample.cells.coarsening
-    coarsening = max(1, fx // 2), max(1, fy // 2)
-    contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
-    surface = map_of_contact(prepared, contact)
-    check_number_of_cells(surface, line_contact_of(prepared.scene, speed), (1, 1))
-    shortest = solve_strip(
-        prepared.scene,
-        surface,
-        speed,
-        start=piece.on_shortest_cells,
-        most=FACTORISATIONS_OF_LAST_LEVEL,
-        most_from_start=FACTORISATIONS_OF_LAST_LEVEL,
-        memo=prepared.memo,
+@dataclass(frozen=True, kw_only=True)
+class Ladder:
+    """A map on shorter and shorter ``strips``; other attributes as of `ShorterCells`."""
+
+    strips: tuple[StripSolution, ...]
+    error: float
+    has_unsolved: bool = False
+    has_too_many: bool = False
+    has_ended: bool = False
+
+
+def _continued(
+    strips: Sequence[StripSolution],
+    coarsening: tuple[int, int],
+    *,
+    shorten: Callable[[tuple[int, int]], tuple[int, int]],
+    solve: Callable[[tuple[int, int], StripSolution], StripSolution],
+    error: float,
+    tolerance: float,
+    spent: float,
+    most: float,
+    is_first_needed: bool = False,
+    has_end: bool = False,
+) -> Ladder:
+    """Return a map on the cells of ``strips``, the last of which are as long as ``coarsening`` says, and on shorter and shorter ones,
+    until the estimated ``error`` is within ``tolerance`` or shorter ones do not pay (`_pays`).
+
+    Where they do not converge, are too many, or take more than ``most`` [s], those before count, and the error is `UNSOLVED_FACTOR`
+    times the estimate from them.
+
+    Parameters
+    ----------
+    shorten : returns the next ``coarsening``, or the same where there is none
+    solve : solves on cells of a coarsening, from the solution on longer ones
+    error : as estimated from ``strips``
+    tolerance : 0: all cells are solved
+    spent : counted work [s] of the point so far
+    is_first_needed : whether the first of the shorter cells are solved in any case
+    has_end : whether the answer is for the shortest cells (``left`` of `error_by_cells`)
+    """
+    ladder = list(strips)
+    failure: LubfricError | None = None
+    has_ended = False
+    with limited_work(most):
+        while (shorter := shorten(coarsening)) != coarsening and (error > tolerance or is_first_needed):
+            left = math.ceil(math.log2(max(coarsening)))
+            expected = _expected_work(ladder[-1], math.prod(coarsening) / math.prod(shorter))
+            has_ended = not (
+                is_first_needed
+                or tolerance == 0
+                or _pays(
+                    tolerance,
+                    changes_of(ladder),
+                    spent=spent,
+                    expected=expected,
+                    most=work_left(),
+                    most_halvings=left,
+                    left=left if has_end else math.inf,
+                )
+            )
+            if has_ended:
+                break
+            try:
+                strip = solve(shorter, ladder[-1])
+            except (ConvergenceError, TooManyCellsError) as exception:
+                failure = exception
+                break
+            ladder.append(strip)
+            coarsening = shorter
+            spent += strip.work
+            is_first_needed = False
+            by_cells = error_by_cells(changes_of(ladder), max(left - 1, 1) if has_end else math.inf)
+            error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(strip))
+    has_too_many = isinstance(failure, TooManyCellsError)
+    return Ladder(
+        strips=tuple(ladder),
+        error=error if failure is None else UNSOLVED_FACTOR * error,
+        has_unsolved=failure is not None and not has_too_many,
+        has_too_many=has_too_many,
+        has_ended=has_ended,
     )
-    return Piece((*piece, replace(shortest, slope=slope)))
+
+
+def _strip_on_shorter_cells(
+    prepared: Prepared,
+    speed: float,
+    pieces: tuple[Piece, ...],
+    scatter: StandardError,
+    *,
+    error: float,
+    spent: float,
+    most: float,
+) -> ShorterCells:
+    """Return what shorter cells show on all of a short strip, which is the first of the ``pieces``, with these estimated numbers;
+    arguments as of `_continued`."""
+    scene = prepared.scene
+    sample = prepared.sample
+
+    def solve(coarsening: tuple[int, int], start: StripSolution) -> StripSolution:
+        contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
+        surface = map_of_contact(prepared, contact)
+        check_number_of_cells(surface, start.problem.line, (1, 1))
+        most = FACTORISATIONS_OF_LAST_LEVEL
+        return solve_strip(scene, surface, speed, start=start, memo=prepared.memo, most=most, most_from_start=most)
+
+    ladder = _continued(
+        pieces[0],
+        sample.cells.coarsening,
+        shorten=lambda coarsening: (max(1, coarsening[0] // 2), max(1, coarsening[1] // 2)),
+        solve=solve,
+        error=error,
+        tolerance=scene.numerics.tolerance,
+        spent=spent,
+        most=most,
+        has_end=True,
+    )
+    slope = pieces[0].on_cells_of_strips.slope
+    is_continued = len(ladder.strips) > len(pieces[0])
+    return ShorterCells(
+        pieces=pieces,
+        shortest=Piece(replace(one, slope=slope) for one in ladder.strips) if is_continued else Piece(),
+        sampling_error=scatter,
+        error=ladder.error,
+        has_unsolved=ladder.has_unsolved,
+        has_too_many=ladder.has_too_many,
+        has_ended=ladder.has_ended,
+    )
 
 
 def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids, error: float) -> ShorterCells:
     """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative ``error``.
 
-    Its cells are `shortened` until the estimated error is within ``numerics.tolerance`` or shorter ones do not pay (`_pays`), with
-    ``numerics.grid = "given"`` down to the map's own. Where shorter ones are needed, and do not converge, are too many, or take more
-    than `MOST_WORK_OF_POINT` in a scene without ``numerics.max_work``, those before count, and the error is `UNSOLVED_FACTOR` times
-    the estimate from them.
+    Its cells are `shortened` until the estimated error is within ``numerics.tolerance`` (`_continued`), with ``numerics.grid =
+    "given"`` down to the map's own; within `MOST_WORK_OF_POINT` in a scene without ``numerics.max_work``.
     """
     scene = prepared.scene
     has_all = scene.numerics.grid == "given"
-    enough = 0.0 if has_all else scene.numerics.tolerance
     (surface, map_coarsening) = surface_and_map_coarsening(prepared, 0)
-    ladder = [pair.longer, pair.resolved]
     spent = pair.resolved.work
-    is_limited = scene.numerics.max_work is None and not has_all
-    most = MOST_WORK_OF_POINT - spent if is_limited else math.inf
-    by_cells = math.inf  # one shorter length of cells is solved in any case
-    has_unsolved = False
-    has_too_many = False
-    has_ended = False
-    with limited_work(min(PIECES_SHARE * work_left(), most)):
-        while (
-            shorter_cells := shortened(scene, prepared.sample, map_coarsening)
-        ) != map_coarsening and by_cells > enough:
-            has_too_many = has_too_many_cells(surface, ladder[-1].problem.line, shorter_cells)
-            if has_too_many:
-                break
-            times_cells = math.prod(map_coarsening) / math.prod(shorter_cells)
-            expected = _expected_work(ladder[-1], times_cells)
-            is_first = len(ladder) == 2
-            has_ended = not (
-                has_all
-                or is_first
-                or _pays(
-                    enough,
-                    changes_of(ladder),
-                    spent=spent,
-                    expected=expected,
-                    most=work_left(),
-                    most_halvings=math.ceil(math.log2(max(map_coarsening))),
-                )
-            )
-            if has_ended:
-                break
-            map_coarsening = shorter_cells
-            solve = partial(solve_strip, scene, surface, speed, map_coarsening=map_coarsening, memo=prepared.memo)
-            try:
-                shorter = solve(start=ladder[-1], most=FACTORISATIONS_OF_SHORTER_CELLS)
-            except ConvergenceError:
-                has_unsolved = True
-                break
-            ladder.append(shorter)
-            spent += shorter.work
-            by_cells = error_by_cells(changes_of(ladder))
-            error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(shorter))
-    if has_unsolved or has_too_many:
-        error *= UNSOLVED_FACTOR
-    if len(ladder) == 2:
-        return ShorterCells(error=error, has_unsolved=has_unsolved, has_too_many=has_too_many)
-    patch = Piece(replace(one, slope=pair.resolved.slope) for one in ladder)
-    return ShorterCells(
-        pieces=(patch,),
-        strip=patch.on_shortest_cells,
+    most = PIECES_SHARE * work_left()
+    if scene.numerics.max_work is None and not has_all:
+        most = min(most, MOST_WORK_OF_POINT - spent)
+
+    def solve(coarsening: tuple[int, int], start: StripSolution) -> StripSolution:
+        check_number_of_cells(surface, start.problem.line, coarsening)
+        return solve_strip(
+            scene,
+            surface,
+            speed,
+            map_coarsening=coarsening,
+            memo=prepared.memo,
+            start=start,
+            most=FACTORISATIONS_OF_SHORTER_CELLS,
+        )
+
+    ladder = _continued(
+        (pair.longer, pair.resolved),
+        map_coarsening,
+        shorten=partial(shortened, scene, prepared.sample),
+        solve=solve,
         error=error,
-        has_unsolved=has_unsolved,
-        has_too_many=has_too_many,
-        has_ended=has_ended,
+        tolerance=0.0 if has_all else scene.numerics.tolerance,
+        spent=spent,
+        most=most,
+        is_first_needed=True,
     )
+    unsolved = ShorterCells(
+        error=ladder.error,
+        has_unsolved=ladder.has_unsolved,
+        has_too_many=ladder.has_too_many,
+        has_ended=ladder.has_ended,
+    )
+    if len(ladder.strips) == 2:
+        return unsolved
+    patch = Piece(replace(one, slope=pair.resolved.slope) for one in ladder.strips)
+    return replace(unsolved, pieces=(patch,), strip=patch.on_shortest_cells)
 
 
 def error_of_soft_bodies(strip: StripSolution) -> float:
