@@ -31,7 +31,7 @@ from .linear import HIGH_PRESSURE
 from .moving import film_half_width
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach, why_too_many
-from .shorter_cells import CHEAP_WORK, LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
+from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
 from .strip_on_two_grids import (
     MapCoarsening,
     coarsening_at_rest,
@@ -65,13 +65,6 @@ CHANGE_SPREAD = 1.4
 
 # Factor on that change where the heights are not smooth over a cell [-]: on those of the patches whose autocorrelation is exponential.
 CHANGE_IF_NOT_SMOOTH = 1.5
-
-# Change of f over numerics.tolerance [-], above which one more halving of the cells of a strip is not expected to lead to it
-# (`expected_error_after`): (1 - q)/q² with a ratio q of changes of .35, .29 to .49 on three measured maps.
-MOST_CHANGE_THAT_PAYS = 5.3
-
-# Lengths of cells beyond those of a short strip, at most [-]: the third and the fourth level. By definition.
-HALVINGS_OF_STRIP = 2
 
 # Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two. A choice
 # between these.
@@ -297,15 +290,19 @@ def _work_in_levels(
     """Return the counted work [s] of a patch at rest, or of ``count`` strips no longer than `LENGTH_OF_LAST_PIECE`, on shorter and
     shorter cells, and of so many ``ends`` of input ranges: the geometric mean over where the shorter cells may end.
 
-    A patch is `shortened` until the estimated error is within the tolerance, or further cells do not pay (`_log_change_of_patch`);
-    the ends are solved on the last ones. Of the strips one is, twice at most; the ends are solved on their first cells.
-    ``is_smooth``: whether the heights are smooth over a cell.
+    A patch, or one of the strips, is solved on them until the estimated error is within the tolerance (`_log_change_of_patch`), or
+    they take too much work; the ends on the last ones, or on the first of strips. ``is_smooth``: whether the heights are smooth over
+    a cell.
     """
     numerics = scene.numerics
     is_patch = sample.refines_in_place
     (dx, dy) = sample.cells.native_spacing
     columns = sum(reach(scene.line_contact(abs(speed)), sq)) / dx
     rows = sample.strip_length / dy
+
+    def shorten(coarsening: tuple[int, int]) -> tuple[int, int]:
+        (fx, fy) = coarsening
+        return shortened(scene, sample, MapCoarsening((fx, fy))) if is_patch else (max(1, fx // 2), max(1, fy // 2))
 
     def solves_on(coarsening: tuple[int, int]) -> tuple[float, float]:
         along = columns / coarsening[0]
@@ -322,10 +319,7 @@ def _work_in_levels(
     log_work = 0.0
     left = 1.0  # probability that the cells are shortened so far
     halvings = 0
-    while is_patch or halvings < HALVINGS_OF_STRIP:
-        shorter = shortened(scene, sample, MapCoarsening(coarsening)) if is_patch else _halved(coarsening)
-        if shorter == coarsening:
-            break
+    while (shorter := shorten(coarsening)) != coarsening:
         (next_first, next_again) = solves_on(shorter)
         part = 1.0
         is_needed = numerics.grid == "given" or (not is_patch and halvings == 0 and not is_smooth)
@@ -333,9 +327,6 @@ def _work_in_levels(
             log_change = _log_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
             log_change += 0.0 if is_smooth else math.log(CHANGE_IF_NOT_SMOOTH)
             part = _part_above(numerics.tolerance / ERROR_OVER_CHANGE, log_change)
-            is_costly = next_first > max(work, CHEAP_WORK)
-            if halvings > 0 and is_costly and not is_patch:
-                part -= _part_above(numerics.tolerance * MOST_CHANGE_THAT_PAYS, log_change)
         log_work += left * (1.0 - part) * math.log(work + ends * again)
         left *= part
         if why_too_many(columns * rows / (shorter[0] * shorter[1])) or (halvings > 0 and next_first > most):
@@ -345,11 +336,6 @@ def _work_in_levels(
         again = next_again if is_patch else again
         halvings += 1
     return math.exp(log_work + left * math.log(work + ends * again))
-
-
-def _halved(coarsening: tuple[int, int]) -> tuple[int, int]:
-    """Return half the ``coarsening``, or native cells."""
-    return max(1, coarsening[0] // 2), max(1, coarsening[1] // 2)
 
 
 def _part_above(change: float, log_expected: float) -> float:
