@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from .._base import Renamed, Shown, figures, packaged, validate
+from .._base import Renamed, Shown, __version__, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
 from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation, alpha_beside_interval
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
+from .methods_paragraph import methods_paragraph
 from .uncertainty import NumberErrors, Uncertainty
 
 if TYPE_CHECKING:
@@ -96,9 +97,10 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return "; ".join(filter(None, (*parts, by_alpha)))
 
     def cite(self, format: str = "text") -> str:
-        """Return the publications of the methods used for this result, the model's first: one a line, or with
-        ``format`` "bibtex" as BibTeX entries."""
-        return cited(self.methods, format)
+        """Return the publications of the methods used for this result, the model's first: one a line, with ``format``
+        "bibtex" as BibTeX entries, or with "methods" as a paragraph to quote: program, model, methods, and what the
+        interval contains."""
+        return cite_together([self], format)
 
     @property
     def balance(self) -> Balance | None:
@@ -181,13 +183,17 @@ def _interval(interval: tuple[float, float]) -> str:
     return f" ({low:.4g} to {high:.4g} at 95 %)" if np.isfinite(low) and np.isfinite(high) else ""
 
 
-def cited(methods: Iterable[str], format: str = "text") -> str:
+def cited(
+    methods: Iterable[str], format: str = "text", *, models: Sequence[str] = (), errors: Sequence[Uncertainty] = ()
+) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
-    "text" or "bibtex"."""
-    validate.choice("format", format, ("text", "bibtex"))
+    "text" or "bibtex"; or "methods", a paragraph about them with the ``models`` of the points and their ``errors``."""
+    validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
+    if format == "methods":
+        return methods_paragraph(__version__, sources, models, errors)
     if not any(source["type"] == "software" for source in sources):
         program = papers["deterministic model"][0]  # a chapter of lubfric
         sources.append(program | {"chapter": "", "purpose": PROGRAM})
@@ -196,4 +202,7 @@ def cited(methods: Iterable[str], format: str = "text") -> str:
 
 def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str:
     """Return the papers of several results, each once, in the ``format`` of `cited`."""
-    return cited((name for point in points for name in point.methods), format)
+    solved = list(points)
+    methods = [name for point in solved for name in point.methods]
+    models = [point.decision.model for point in solved]
+    return cited(methods, format, models=models, errors=[point.uncertainty for point in solved])

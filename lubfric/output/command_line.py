@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 OF_CURVES = "a Stribeck curve"
 OF_TRACTION = "a traction curve (--ratios)"
 OF_RUNS_IN_TIME = "a scene with [transient]"
-FOR = {"ratios": OF_TRACTION, "animation": OF_RUNS_IN_TIME} | dict.fromkeys(
-    ("speeds", "fields", "workers", "vtk"), OF_CURVES
+FOR = {"ratios": (OF_TRACTION,), "animation": (OF_RUNS_IN_TIME,), "workers": (OF_CURVES, OF_TRACTION)} | dict.fromkeys(
+    ("speeds", "fields", "vtk"), (OF_CURVES,)
 )
 
 
@@ -119,8 +119,8 @@ def run(arguments: Namespace) -> None:
         what = OF_RUNS_IN_TIME
     for option, of in FOR.items():
         is_default = getattr(arguments, option) in ((None, 1) if option == "workers" else (None, False))
-        if not is_default and of != what:
-            raise InputError(f"--{option} is for {of}, and this is {what}; omit it")
+        if not is_default and what not in of:
+            raise InputError(f"--{option} is for {' or '.join(of)}, and this is {what}; omit it")
     if what == OF_RUNS_IN_TIME and arguments.measured is not None:
         raise InputError(f"--measured is drawn with a curve, and this is {what}; omit it")
     solve = {

@@ -502,7 +502,7 @@ class RunFolder:
         if not self.failures:  # else what was saved is all that has everything
             if self.is_needed:
                 say(
-                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene at more speeds; the command of "
+                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene with more points; the command of "
                     "that run continues it"
                 )
             else:

@@ -140,10 +140,19 @@ def report_page(
             "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": _pictures(contents, shows_answer=False)
             or "<p>There is no contact or rough surface to show.</p>",
-            "method": _method(prepared, result, estimate),
+            "method": methods_to_quote(
+                [scene_in_words(scene), *[f"roughness: {text}" for text in estimate.sections["surface"][:1]]], result
+            )
+            + _method(prepared, result, estimate),
             "made": _made(record),
         },
     )
+
+
+def methods_to_quote(facts: Sequence[str], result: Any) -> str:
+    """Return a paragraph about the ``facts`` of a scene and the methods of its ``result`` (`cite`), which a reader may quote."""
+    text = " ".join([*map(sentence, facts), result.cite("methods")]).strip()
+    return f'<p class="small">Methods, to quote:</p><blockquote>{escape(text)}</blockquote>' if text else ""
 
 
 def gap_notes(result: CurveResult | TransientResult) -> list[str]:

@@ -101,16 +101,10 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
     def kept() -> str:
-        verb = "is" if len(ended) == 1 else "are"
-        return f"{len(ended)} of {total} points {verb} kept in {arguments.out}" if ended else ""
+        return _kept_in_words(len(ended), total, arguments.out)
 
-    if arguments.workers is not None:
-        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
-    else:
-        workers = _default_workers(scene, speeds)
-    speeds_apart = speeds != studies.AUTO_SPEEDS and len(speeds) >= max(2, workers)  # else the parts of each point are
-    if speeds_apart and workers > 1:
-        say(f"{workers} processes solve the speeds in parallel: points end in any order, and their times overlap")
+    workers = _workers(arguments, scene, speeds)
+    speeds_apart = _are_apart(speeds, workers)
     with (
         ProgressLine("speeds") as shown,
         studies.pool(workers) as executor,
@@ -119,11 +113,8 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, kept_by="stribeck", speeds=speeds)
         with begun as (folder, prepared, estimate), progress_to(moment_reports()):
             requested = () if speeds == studies.AUTO_SPEEDS else speeds
-            if known := studies.count_of_kept(folder.unfinished, prepared, requested):
-                verb = "is" if known == 1 else "are"
-                say(
-                    f"{known} of {counted(len(requested), 'points')} {verb} solved already, by an interrupted run in {arguments.out}"
-                )
+            known = studies.count_of_kept(folder.unfinished, prepared, requested)
+            _say_known(known, len(requested), arguments.out)
 
             def on_point(*point: Any) -> None:
                 if not ended:
@@ -147,6 +138,37 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     _raise_if_failed(curve)
 
 
+def _kept_in_words(count: int, total: int | str, out: Path) -> str:
+    """Return how many of ``total`` points an interrupted run keeps in the folder ``out``, as text; "" for none."""
+    verb = "is" if count == 1 else "are"
+    return f"{count} of {total} points {verb} kept in {out}" if count else ""
+
+
+def _say_known(known: int, total: int, out: Path) -> None:
+    """Say how many of ``total`` points an interrupted run has solved in the folder ``out``; nothing for none."""
+    if known:
+        verb = "is" if known == 1 else "are"
+        say(f"{known} of {counted(total, 'points')} {verb} solved already, by an interrupted run in {out}")
+
+
+def _workers(arguments: Namespace, scene: Scene, points: str | list[float]) -> int:
+    """Return the number of processes of a curve over ``points``, speeds or slide-roll ratios: that of the ``arguments``, else
+    `_default_workers`. Where the points have a process each, a line on stderr says so."""
+    if arguments.workers is not None:
+        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
+    else:
+        workers = _default_workers(scene, points)
+    if _are_apart(points, workers) and workers > 1:
+        plural = "speeds" if arguments.ratios is None else "slide-roll ratios"
+        say(f"{workers} processes solve the {plural} in parallel: points end in any order, and their times overlap")
+    return workers
+
+
+def _are_apart(points: str | list[float], workers: int) -> bool:
+    """Return whether the ``points`` of a curve are shared by so many ``workers``; else the parts of each point are."""
+    return points != studies.AUTO_SPEEDS and len(points) >= max(2, workers)
+
+
 def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
@@ -161,18 +183,42 @@ def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
 
 def run_traction(scene: Scene, arguments: Namespace) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
-    and, last, result.json to ``arguments.out``."""
+    and, last, result.json to ``arguments.out``. Points are kept, and shared by processes, as by `run_sweep`."""
     ratios = parse_ratios(arguments.ratios)
     measured = measured_of(arguments, "traction")
-    begun = run_begun(scene, arguments, names_of_run("traction"), None, ratios, "traction", ratios=ratios)
+    ended: list[tuple[Any, ...]] = []
     progress = _progress("slide-roll ratio {:.4g}", scene, has_ratios=True)
-    with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
+    workers = _workers(arguments, scene, ratios)
+
+    def kept() -> str:
+        return _kept_in_words(len(ended), len(ratios), arguments.out)
+
+    names = names_of_run("traction")
+    begun = run_begun(scene, arguments, names, kept, ratios, "traction", kept_by="traction", ratios=ratios)
+    with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate), progress_to(moment_reports()):
+        keys = studies.keys_of_ratios(prepared, ratios)
+        _say_known(
+            studies.count_of_kept_ratios(folder.unfinished, prepared.scene.motion.entrainment_speed, keys),
+            len(ratios),
+            arguments.out,
+        )
 
         def on_point(*point: Any) -> None:
+            if not ended:
+                studies.keep_ratios(folder.unfinished, prepared.scene, keys)
+            ended.append(point)
             shown.update(point[0], point[1])
             progress(*point)
 
-        curve = studies.traction(prepared, in_percent(ratios), on_point=on_point, raise_on_failure=False)
+        curve = studies.traction(
+            prepared,
+            in_percent(ratios),
+            store=folder.unfinished,
+            on_point=on_point,
+            raise_on_failure=False,
+            workers=workers,
+        )
+        folder.is_needed = not studies.is_all_solved(folder.unfinished)
         _write(folder, prepared, curve, arguments, estimate, [], measured)
         notes = gap_notes(curve)
         for note in notes[:MOST_GAPS]:
@@ -193,7 +239,7 @@ def _write(
 ) -> None:
     """Write the table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was
     requested. ``estimate``: before it was solved; ``measured``: drawn with the curve."""
-    name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
+    name = _table_of(curve)
     contents = folder.contents
     table = f"{name}.csv"
     folder.add(table, studies.csv_bytes, curve)
@@ -226,6 +272,11 @@ def _write(
     folder.complete(
         prepared, estimate, given, curve, units, law, unusual_values, again, points=numbers, operating_point=own
     )
+
+
+def _table_of(curve: studies.CurveResult) -> str:
+    """Return the name of the table and the picture of a ``curve``."""
+    return "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
 
 
 def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) -> RepeatedRun:
@@ -381,26 +432,27 @@ def _plot_unfinished_again(arguments: Namespace) -> None:
     unfinished = next(filter(None, map(studies.unfinished_curve, states)), None)
     if unfinished is None:
         raise InputError(
-            f"{folder} has an interrupted run without a solved point of a Stribeck curve",
+            f"{folder} has an interrupted run without a solved point of a curve",
             recommendation="the command of the run continues it",
         )
-    measured = measured_of(arguments, "stribeck")
-    options = _picture_options(arguments, "stribeck")
     curve = unfinished.curve
+    kind = _table_of(curve)
+    measured = measured_of(arguments, kind)
+    options = _picture_options(arguments, kind)
     points = [_point(curve, i) for i in range(len(curve.points))]
     failed = f", {len(curve.errors)} failed" if curve.errors else ""
     say(f"the run is not finished: {unfinished.in_words}{failed}; the picture has these")
-    (name, *models) = _title(curve.scene.name, points).splitlines()
+    (name, *models) = _title(unfinished.scene.name, points).splitlines()
     again = partial(
         _plot,
-        columns=read_table(folder / "stribeck.csv", studies.csv_bytes(curve)),
+        columns=read_table(folder / f"{kind}.csv", studies.csv_bytes(curve)),
         title="\n".join([f"{name}, not finished: {unfinished.in_words}", *models]),
         points=points,
         measured=measured,
         options=options,
-        operating_point=operating_point_of(curve.scene, curve.SWEPT[0]),
+        operating_point=operating_point_of(unfinished.scene, curve.SWEPT[0]),
     )
-    _write_picture(Namespace(**(vars(arguments) | {"folder": folder / SO_FAR})), "stribeck", again)
+    _write_picture(Namespace(**(vars(arguments) | {"folder": folder / SO_FAR})), kind, again)
 
 
 def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:

@@ -26,7 +26,7 @@ from ..models.shared import (
     sides_in_f,
     unmodelled_effects,
 )
-from ..quantities import CHOICES, COLUMN_OF_ERROR, COLUMNS, counted, worded_value
+from ..quantities import CHOICES, COLUMN_OF_ERROR, COLUMNS, RADII_OF_SURFACES, counted, worded_value
 from ..samples import is_measured, requests_patch
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget, has_moving_roughness, inputs_not_given
 from ..studies import (
@@ -66,9 +66,11 @@ from .report import (
     effects_table,
     films_at_limit,
     is_gap_of_touching,
+    methods_to_quote,
     names_of_inputs,
     orders_of_magnitude,
     picture,
+    scene_in_words,
     shortfalls,
     status_kind,
     table,
@@ -206,9 +208,15 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             table=_table(result, rows, warnings) + _details(result, rows) + _effects_table(result),
             varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
             inputs=common_inputs(result),
-            sources=_list(result.cite().splitlines()),
+            sources=methods_to_quote(_common_facts(result), result) + _list(result.cite().splitlines()),
         ),
     )
+
+
+def _common_facts(result: StudyResult) -> list[str]:
+    """Return contact and oil in a line; none where the study varies one of their inputs."""
+    varied = {key.partition(".")[0] for key in result.coords}
+    return [] if varied & {"bodies", "lubricant", *RADII_OF_SURFACES} else [scene_in_words(result.plan.scene)]
 
 
 def _counts_as_paragraph(result: StudyResult) -> str:

@@ -37,5 +37,14 @@ from .tables import (
     shown_numbers,
 )
 from .traction_gaps import Gap, gaps_of
-from .unfinished import UnfinishedCurve, count_of_kept, is_all_solved, keep_request, unfinished_curve
+from .unfinished import (
+    UnfinishedCurve,
+    count_of_kept,
+    count_of_kept_ratios,
+    is_all_solved,
+    keep_ratios,
+    keep_request,
+    keys_of_ratios,
+    unfinished_curve,
+)
 from .vary import Between, sample

@@ -73,7 +73,7 @@ class CurveResult(Renamed, Shown):
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used at any of the points, the model's first: one a line, or with
-        ``format`` "bibtex" as BibTeX entries."""
+        ``format`` "bibtex" as BibTeX entries, or "methods" as a paragraph (`FrictionResult.cite`)."""
         return cite_together((point for point in self.points if point is not None), format)
 
     def _facts(self) -> dict[str, str]:

@@ -218,7 +218,7 @@ class StudyResult(Renamed, Shown):
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this study, the model's first: one a line, or with ``format``
-        "bibtex" as BibTeX entries. Nothing is cited where no point is solved."""
+        "bibtex" as BibTeX entries, or "methods" as a paragraph. Nothing is cited where no point is solved."""
         if not np.isfinite(self["coefficient"]).any():
             return ""
         solved = np.isfinite(self["coefficient"]).reshape(len(self.plan.keys), -1).any(axis=1)

@@ -1,6 +1,7 @@
 """Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -22,7 +23,7 @@ from .choose import alike, between, each_once, requested_speeds, span, tolerance
 from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
 from .interpolate import FEWEST_SPEEDS, Interpolant, Minimum, through
 from .law import MORE_SPEEDS, Law, conditions_of, law_of
-from .points import Outcome, at_ratios, key_of, outcome_of, solved
+from .points import Outcome, at_ratios, key_of, solved
 from .store import opened
 from .tables import DRAWN_ERROR, curve_axes
 from .traction_gaps import Gap, gaps_of
@@ -295,10 +296,13 @@ def traction(
     ratios: str | ArrayLike,
     *,
     speed: float | None = None,
+    executor: Any = None,
     tolerance: float | None = None,
     model: str | None = None,
+    store: str | Path | None = None,
     on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
+    workers: int = 1,
 ) -> TractionResult:
     """Solve the traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
@@ -314,6 +318,7 @@ def traction(
         percentages
     speed : entrainment speed [m/s]; None: the scene's own
     tolerance, model : as in `lubfric.friction`
+    executor, store, workers : as in `lubfric.stribeck`, of the ratios
     on_point : called as on_point(done, total, ratio, outcome) as points end
     raise_on_failure : False returns a curve with failed points
 
@@ -332,16 +337,40 @@ def traction(
     ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    executor = checked_executor(executor)
     base = prepared_with(scene, tolerance, model)
     speed = base.scene.motion.entrainment_speed if speed is None else speed
-    outcomes: list[Outcome] = []
-    for prepared, ratio in zip(at_ratios(base, ratios.tolist()), ratios.tolist()):
-        outcomes.append(outcome_of(prepared, speed))
-        if on_point:
-            on_point(len(outcomes), ratios.size, ratio, outcomes[-1])
-    points, errors = parted(outcomes)
-    report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in ratios], "ratios", points, errors)
-    return checked_curve(
-        TractionResult(ratio=ratios, speed=float(speed), points=points, errors=errors, report=report),
-        raise_on_failure=raise_on_failure,
-    )
+    count = checked_workers(workers, executor)
+    apart = ratios.size >= count
+    outcomes: dict[float, Outcome] = {}
+    try:
+        with pool(count) if count > 1 else nullcontext() as processes, nullcontext() if apart else parts_on(processes):
+            done_by = processes if apart and processes is not None else executor
+            for ratio, outcome in _solved_ratios(base, ratios.tolist(), float(speed), done_by, store):
+                outcomes[ratio] = outcome
+                if on_point:
+                    on_point(len(outcomes), ratios.size, ratio, outcome)
+    except BaseException as fault:
+        fault.result = traction_of(ratios, outcomes, speed)  # type: ignore[attr-defined]  # beside what it holds
+        raise
+    return checked_curve(traction_of(ratios, outcomes, speed), raise_on_failure=raise_on_failure)
+
+
+def _solved_ratios(
+    base: Prepared, ratios: list[float], speed: float, executor: Any, store: str | Path | None
+) -> Iterator[tuple[float, Outcome]]:
+    """Yield each of the ``ratios`` with its outcome at ``speed`` [m/s], as they end; those that ``store`` has come from there."""
+    models = at_ratios(base, ratios)
+    by_key = dict(zip(map(key_of, models), ratios))
+    with opened(store) as folder:
+        jobs = [partial(solved, model, key, (speed,), folder=folder.root) for model, key in zip(models, by_key)]
+        for key, _, outcome in spread(executor, jobs):
+            yield by_key[key], outcome
+
+
+def traction_of(ratios: ArrayLike, outcomes: Mapping[float, Outcome], speed: float) -> TractionResult:
+    """Return the curve of the ``outcomes`` at these slide-roll ``ratios`` and one ``speed`` [m/s]."""
+    values = np.array(ratios)
+    points, errors = parted([outcomes.get(ratio) for ratio in values.tolist()])
+    report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in values], "ratios", points, errors)
+    return TractionResult(ratio=values, speed=float(speed), points=points, errors=errors, report=report)

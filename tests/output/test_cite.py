@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -28,6 +29,34 @@ def test_a_result_cites_the_load_sharing_model_that_it_was_compared_with():
     loose = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.3, "tolerance": 0.05})
     point = lubfric.friction(loose, 0.01)
     assert point.decision.model == "deterministic" and "10.1007/s11249-015-0536-z" in point.cite()
+
+
+def test_a_paragraph_to_quote_has_what_was_used():
+    """Of a curve by two models: every DOI and every purpose of its list, both models with their points, the version, and the parts
+    of its intervals; of a single point its own model alone. A run in time and a study have theirs too."""
+    loose = {"sampling_tolerance": 0.3, "tolerance": 0.05}
+    curve = lubfric.stribeck(lubfric.load_scene("paper").with_(numerics=loose), [0.01, 1.0])
+    text = curve.cite("methods")
+    assert text.startswith(f"Friction was computed with lubfric {lubfric.__version__} by its ")
+    assert "deterministic (1 of 2 points)" in text and "paper (1 of 2 points)" in text
+    listed = curve.cite()
+    for doi in re.findall(r"doi:(\S+):", listed):
+        assert text.count(f"doi:{doi}") == 1, doi
+    for purpose in {line.rpartition(": ")[2] for line in listed.splitlines()}:
+        assert f"{purpose} (" in text
+    assert text.endswith(
+        "contains the numerical, sampling and model-form errors and the range of boundary film, which was not given."
+    )
+    point = curve.points[1]
+    assert "by its paper model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
+    assert "the ranges of" not in text and "the ranges of boundary friction coefficient" in cites_methods(ANTI_WEAR)
+
+
+def cites_methods(scene):
+    """The paragraph of f of ``scene`` at 0.03 m/s, with an interval that is known."""
+    point = lubfric.friction(scene, 0.03, raise_on_failure=False)
+    known = replace(point.uncertainty, interval=(0.9 * point.coefficient, 1.1 * point.coefficient))
+    return replace(point, uncertainty=known).cite("methods")
 
 
 def test_a_curve_cites_every_paper_once():

@@ -220,11 +220,10 @@ TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(durati
 @pytest.mark.parametrize(
     "scene, options, told",
     [
-        (None, ["--ratios", "0.1", "--workers", "2"], "--workers is for a Stribeck curve"),
         (None, ["--ratios", "0.1", "--vtk"], "--vtk is for a Stribeck curve"),
         (None, ["--animation"], "--animation is for a scene with"),
         (TRANSIENT, ["--ratios", "0.1"], "--ratios is for a traction curve"),
-        (TRANSIENT, ["--workers", "2"], "--workers is for a Stribeck curve"),
+        (TRANSIENT, ["--workers", "2"], "--workers is for a Stribeck curve or a traction curve (--ratios), and"),
         (TRANSIENT, ["--vtk"], "--vtk is for a Stribeck curve, and this is a scene with [transient]"),
     ],
 )

@@ -24,6 +24,8 @@ HISTORY = (
     "[transient]\nduration = 0.0005\noutputs = 3\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
+RATIOS = "--ratios=0.1,0.5,-0.5,1.5,0.02"
+TABLES = ("stribeck.csv", "history.csv", "traction.csv")
 MOVING = SCENE.replace("tolerance = 0.03\n", "") + HISTORY
 COUNTED = """
 import sys
@@ -73,10 +75,12 @@ def start(scene, out, *more, code=COUNTED, **options):
 
 def same(one: Path, other: Path):
     """The same numbers to the last bit."""
-    name = "stribeck.csv" if (one / "stribeck.csv").is_file() else "history.csv"
+    name = next(name for name in TABLES if (one / name).is_file())
     here, there = (read_table(folder / name) for folder in (one, other))
     for column in here:
         np.testing.assert_array_equal(here[column], there[column], err_msg=column)
+    if name == "traction.csv":
+        return
     with np.load(one / "fields.npz") as here, np.load(other / "fields.npz") as there:
         assert here.files == there.files
         for column in here.files:
@@ -118,11 +122,11 @@ def readable(out: Path):
             assert path.read_bytes()[-8:-4] == b"IEND"
 
 
-def killed_until_done(scene, out, rng, kills):
+def killed_until_done(scene, out, rng, kills, *more):
     """(points solved in all runs together, kills): killed at random moments after a point or the state of a step."""
     solved = used = 0
     while True:
-        process = start(scene, out)
+        process = start(scene, out, *more)
         text = ""
         if used < kills:
             text = "".join(process.stdout.readline() for _ in range(rng.integers(1, 5)))  # beyond the imports
@@ -158,6 +162,43 @@ def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, unint
         left -= used
         if left <= 0:
             break
+
+
+def test_killed_traction_curves_lose_and_repeat_nothing(tmp_path):
+    """As Stribeck curves: a point that ended is kept, and the rows are those of a run that nobody killed."""
+    assert main(["run", written(tmp_path), RATIOS, "--out", str(tmp_path / "whole")]) == 0
+    solved, kills = killed_until_done(
+        str(tmp_path / "scene.toml"), tmp_path / "out", np.random.default_rng(7), 2, RATIOS
+    )
+    assert kills > 0 and 5 <= solved <= 5 + kills
+    complete(tmp_path / "out")
+    same(tmp_path / "out", tmp_path / "whole")
+
+
+def test_an_interrupted_traction_curve_is_drawn_and_serves_a_run_at_other_ratios(tmp_path, monkeypatch, capsys, drawn):
+    """Its points are those of `lubfric.traction`; no ratio is solved twice, and what one run leaves out stays for another."""
+    out = tmp_path / "out"
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 4))
+    assert main(["run", written(tmp_path), RATIOS, "--out", str(out)]) == 130
+    assert "3 of 5 points are kept in" in " ".join(capsys.readouterr().err.split())
+    shown = []
+    real = run_curve.plot_traction
+    monkeypatch.setattr(run_curve, "plot_traction", lambda *a, **b: (shown.append(a), real(*a, **b)))
+    assert main(["plot", str(out)]) == 0
+    assert "3 of 5 slide-roll ratios are solved" in " ".join(capsys.readouterr().err.split())
+    (_, columns, title, *_), *_ = shown
+    curve = lubfric.traction(lubfric.load_scene(tmp_path / "scene.toml"), [-0.5, 0.1, 0.5])
+    np.testing.assert_array_equal(columns["coefficient"], curve.coefficient)
+    assert "not finished: 3 of 5" in title and (out / "so_far" / "traction.png").is_file()
+    solved = Mock(side_effect=lubfric.friction)
+    monkeypatch.setattr("lubfric.studies.points.friction", solved)
+    assert main(["run", written(tmp_path), "--ratios=0.1,0.7", "--out", str(out)]) == 0
+    said = " ".join(capsys.readouterr().err.split())
+    assert "1 of 2 points is solved already" in said and "of this scene with more points" in said
+    assert [call.args[0].scene.motion.slide_roll_ratio for call in solved.call_args_list] == [0.7]
+    assert main(["run", written(tmp_path), RATIOS, "--out", str(out), "--workers", "1"]) == 0
+    assert [call.args[0].scene.motion.slide_roll_ratio for call in solved.call_args_list] == [0.7, 1.5, 0.02]
+    assert not (out / "unfinished").exists()
 
 
 def signalling(sent, after):
@@ -323,7 +364,7 @@ def test_points_of_an_interrupted_run_serve_a_run_at_any_speeds_of_the_scene(tmp
     said = " ".join(capsys.readouterr().err.split())
     assert "2 of 3 points are solved already, by an interrupted run" in said and "not used" not in said
     assert [call.args[1] for call in solved.call_args_list] == [0.3]
-    assert "keeps the points of an interrupted run of this scene at more speeds" in said
+    assert "keeps the points of an interrupted run of this scene with more points" in said
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0
     assert [call.args[1] for call in solved.call_args_list] == [0.3, 0.1]
     complete(out)

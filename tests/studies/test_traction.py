@@ -51,6 +51,26 @@ def test_points_are_those_of_friction_in_the_order_requested(model):
     assert curve.points[1].boundary_force == 0  # rolling: spots do not slide
 
 
+def test_a_store_and_processes_change_no_bit_of_a_traction_curve(tmp_path, monkeypatch):
+    """Ratios of a longer call are solved once; a process for each ratio, or for the parts of each, gives the same."""
+    ratios = [0.5, 0.1, -0.5]
+    alone = lubfric.traction(SCENE, ratios, speed=0.5)
+    lubfric.traction(SCENE, ratios[:2], speed=0.5, store=tmp_path / "store")
+    seen = []
+    for options in ({"store": tmp_path / "store"}, {"workers": 2}, {"workers": 4}):
+        curve = lubfric.traction(SCENE, ratios, speed=0.5, on_point=lambda *point: seen.append(point), **options)
+        np.testing.assert_array_equal(curve.coefficient, alone.coefficient)
+        np.testing.assert_array_equal(curve["power_loss"], alone["power_loss"])
+    assert [sorted(point[2] for point in seen[i : i + 3]) for i in (0, 3, 6)] == [sorted(ratios)] * 3
+    assert [point[0] for point in seen] == [1, 2, 3] * 3 and {point[1] for point in seen} == {3}
+    monkeypatch.setattr("lubfric.studies.points.friction", None)  # every point is there
+    kept = lubfric.traction(SCENE, ratios, speed=0.5, store=tmp_path / "store")
+    np.testing.assert_array_equal(kept.coefficient, alone.coefficient)
+    with pytest.raises(TypeError) as fault:
+        lubfric.traction(SCENE, [0.1, 0.7], speed=0.5, store=tmp_path / "store")
+    assert fault.value.result.coefficient[0] == alone.coefficient[1] and np.isnan(fault.value.result.coefficient[1])
+
+
 def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
     """Of a smooth film, which is the same whichever body is the faster: what is taken out is some 1e-4 of the load, and
     the more of f the less the bodies slide."""
