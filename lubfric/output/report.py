@@ -468,17 +468,37 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
     elif math.isnan(speed):
         first = (
             f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
-            f"{high:.4g} m/s; solve more speeds between them to determine it."
+            f"{high:.4g} m/s; "
+        )
+        inexact = curve.numerical_at_lift_off
+        first += (
+            f"the numerical error of f there, {percent(inexact)}, is too large to say where."
+            if inexact > LARGE_NUMERICAL_ERROR
+            else "solve more speeds between them to determine it."
         )
     else:
         surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
-        known = with_interval(speed, low, high, "", unit="m/s")
+        known = with_interval(speed, low, high, " by the solved speeds alone", unit="m/s")
         first = f"The lift-off speed, above which the film separates the surfaces, is {known}{surface}."
     if curve.between > LARGEST_BETWEEN:
         between = "Between some of the solved speeds f is not known."
     else:
-        between = f"Between the solved speeds f is interpolated within {percent(curve.between)}."
+        between = (
+            f"Between the solved speeds f is interpolated within {percent(curve.between)}, in addition to the errors of these points"
+            f"{_largest_error_of_points(curve)}."
+        )
     return [f"{first} {between} {minimum_in_words(curve)}"]
+
+
+def _largest_error_of_points(curve: StribeckResult) -> str:
+    """Return how large half the 95 % interval of f at a point of a curve is at most, as text to be appended; "" where that is
+    not known, or f is near 0."""
+    if any(point is not None and point.uncertainty.is_near_zero for point in curve.points):
+        return ""
+    good = np.isfinite(curve.coefficient) & (curve.coefficient != 0)
+    low, high = curve.uncertainty.interval[good].T
+    widths = 0.5 * (high - low) / np.abs(curve.coefficient[good])
+    return f" (up to {percent(float(widths.max()))} at 95 %)" if np.isfinite(widths).all() else ""
 
 
 def minimum_in_words(curve: StribeckResult) -> str:
@@ -488,7 +508,7 @@ def minimum_in_words(curve: StribeckResult) -> str:
     low = float(solved[solved <= minimum.speeds[0]].max(initial=solved[0]))
     high = float(solved[solved >= minimum.speeds[1]].min(initial=solved[-1]))
     if minimum.is_bracketed:
-        f = with_interval(minimum.coefficient, *minimum.interval, " by the interpolation")
+        f = with_interval(minimum.coefficient, *minimum.interval)
         return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
     more = "solve more speeds there, or let --speeds auto choose them"
     if minimum.is_inside:
@@ -666,7 +686,8 @@ def _law(law: Law | str, curve: CurveResult) -> str:
         warning = f'<p class="warning">{escape(sentence(_without_head(law.warning)))}</p>' if law.warning else ""
         text = (
             f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
-            f"most {deviation} from the curve through the solved points, which is known within {within} between them. Check "
+            f"most {deviation} from the curve through the solved points, which adds at most {within} between them to "
+            f"the errors of the points{_largest_error_of_points(curve)}. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )
     else:

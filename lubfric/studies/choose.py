@@ -14,7 +14,7 @@ from ..models.shared import Prepared
 from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..units import without_unit
-from .curve import columns_of
+from .curve import points_of_interpolation
 from .interpolate import FEWEST_SPEEDS, Interpolant, through
 
 AUTO_SPEEDS = "auto"
@@ -129,7 +129,7 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST_SPEEDS:
-            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)
+            wanted = next_speed(through(points_of_interpolation(good)), tolerance_between(prepared), failed)
         ahead = [] if wanted is None else [wanted]
 
 

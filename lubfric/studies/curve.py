@@ -17,7 +17,7 @@ from ..estimate import (
     row_of_uncertainty,
 )
 from ..models.shared import Violation, gathered, in_a_cell, is_note_text, violations_of
-from ..quantities import NUMBERS, counted, heading
+from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted, heading
 
 
 class CurveResult(Renamed, Shown):
@@ -107,6 +107,12 @@ def without_rolling(point: FrictionResult) -> float:
 def columns_of(points: Sequence[Any]) -> dict[str, np.ndarray]:
     """Return every number of ``points`` by name, NaN where one is None."""
     return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
+
+
+def points_of_interpolation(points: Sequence[Any]) -> dict[str, np.ndarray]:
+    """Return `columns_of` with the column of the numerical error of f, of which `lubfric.studies.interpolate` makes a curve."""
+    numerical = [np.nan if p is None else p.uncertainty.numerical for p in points]
+    return columns_of(points) | {COLUMN_OF_ERROR["numerical"]: np.array(numerical)}
 
 
 def report_of(

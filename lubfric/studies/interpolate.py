@@ -20,6 +20,7 @@ import numpy as np
 
 from .._base import FloatArray
 from ..errors import InputError
+from ..models.shared import LARGE_NUMERICAL_ERROR
 from ..quantities import counted
 
 # Fewest solved speeds of a curve. A choice: two show no bend.
@@ -99,7 +100,8 @@ class Samples:
 
     share: of the load on the contact; boundary, film: parts of f; thickness: central film, and clearance: its distance
     from the summits if nothing touches, both in units of Sq; steepness: d ln((1 - share)/share)/d ln U (NaN if not
-    known).
+    known); numerical: relative numerical error of f (0 where it
+    is not known).
     """
 
     speed: np.ndarray
@@ -109,6 +111,7 @@ class Samples:
     thickness: np.ndarray
     clearance: np.ndarray
     steepness: np.ndarray
+    numerical: np.ndarray
 
     @property
     def contacts(self) -> int:
@@ -128,8 +131,10 @@ class Minimum:
     ----------
     speed : entrainment speed [m/s] at which the interpolated f is least
     coefficient : f there [-]
-    interval : (lowest, highest) that the least f may be [-] by the interpolation, without the errors of the points
-    speeds : (lowest, highest) speed [m/s] at which f may be least
+    interval : (lowest, highest) that the least f may be [-] by the interpolation, without the errors of the points; of
+        a `StribeckResult`: 95 % interval, with these errors
+    speeds : (lowest, highest) speed [m/s] at which f may be least, by the interpolation and the numerical errors of the
+        points
     is_inside : whether ``speeds`` reach neither the slowest nor the fastest solved speed
     is_bracketed : whether it is inside, and ``speeds`` differ by at most a factor of 2
     """
@@ -172,10 +177,25 @@ class Interpolant:
         return float(s.speed[s.contacts - 1]), float(s.speed[s.contacts])
 
     @property
+    def numerical_at_lift_off(self) -> float:
+        """The largest relative numerical error of f at the solved speeds around lift-off; 0 without a lift-off."""
+        k = self.samples.contacts
+        around = self.samples.numerical[k - 1 : k + 1]
+        return 0.0 if self.lift_off is None else float(np.max(around))
+
+    @property
     def is_lift_off_supported(self) -> bool:
-        """Whether the solved speeds around lift-off are near enough to state its place between them."""
+        """Whether the solved speeds around lift-off are near enough, and f there known well enough, to state its place
+        between them."""
         low, high = self.bracket
-        return high <= WIDEST_BRACKET * low
+        return high <= WIDEST_BRACKET * low and not self.numerical_at_lift_off > LARGE_NUMERICAL_ERROR
+
+    @property
+    def _is_lift_off_extrapolated(self) -> bool:
+        """Whether the place of lift-off is an extrapolation of the film; else it is the middle of the solved speeds around
+        it, because the clearance of the film is not known."""
+        s = self.samples
+        return bool(np.isfinite(s.clearance[s.contacts]))
 
     @property
     def lifted(self) -> float:
@@ -185,8 +205,10 @@ class Interpolant:
     @property
     def lift_off_range(self) -> tuple[float, float]:
         """(lowest, highest) speed [m/s] that lift-off may have, by the points alone, without the sign: where they do not
-        support its place, the solved speeds around it. NaN without a lift-off."""
-        return self._extrapolated_range if self.is_lift_off_supported else self.bracket
+        support its place, or it is not extrapolated, the solved speeds around it. NaN without a lift-off."""
+        if self.is_lift_off_supported and self._is_lift_off_extrapolated:
+            return self._extrapolated_range
+        return self.bracket
 
     @property
     def _extrapolated_range(self) -> tuple[float, float]:
@@ -237,10 +259,11 @@ class Interpolant:
         speed = np.union1d(np.geomspace(solved[0], solved[-1], MINIMUM_GRID), solved)
         speed = np.clip(speed, solved[0], solved[-1])
         f = self.at(speed)
-        half = np.abs(f) * self.error(speed)
+        error = self.error(speed)
+        half = np.abs(f) * error
+        half_of_points = np.abs(f) * np.hypot(error, np.interp(np.log(speed), np.log(solved), self.samples.numerical))
         least = int(np.nanargmin(f))
-        highest = float(np.nanmin(f + half))
-        candidates = np.flatnonzero(~(f - half > highest))
+        candidates = np.flatnonzero(~(f - half_of_points > np.nanmin(f + half_of_points)))
         first = max(candidates[0] - 1, 0)
         last = min(candidates[-1] + 1, speed.size - 1)
         ends = sorted((self.sense * float(speed[first]), self.sense * float(speed[last])))
@@ -248,7 +271,7 @@ class Interpolant:
         return Minimum(
             speed=self.sense * float(speed[least]),
             coefficient=float(f[least]),
-            interval=(float(np.nanmin(f - half)), highest),
+            interval=(float(np.nanmin(f - half)), float(np.nanmin(f + half))),
             speeds=(ends[0], ends[1]),
             is_inside=is_inside,
             is_bracketed=bool(is_inside and speed[last] <= WIDEST_BRACKET * speed[first]),
@@ -262,7 +285,7 @@ class Interpolant:
         s = self.samples
         (low, high) = self.bracket
         far = float(_ramp(np.log(high / low), WIDEST_BRACKET, FAR_SPEEDS))
-        part = far + (1.0 - far) * EXTRAPOLATED_ERROR
+        part = far + (1.0 - far) * (EXTRAPOLATED_ERROR if self._is_lift_off_extrapolated else 1.0)
         least = min(NEAR_CONTACT * low, self.lift_off)
         most = high * (1.0 - BELOW_SEPARATED)
         extrapolated = (self.lift_off * (end / self.lift_off) ** part for end in (low, high))
@@ -379,8 +402,8 @@ class Interpolant:
 
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
-    """Return the curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError`
-    for speeds of both directions and for fewer than three different ones."""
+    """Return the curve through points with these ``numbers`` and the column of their numerical error, as
+    `lubfric.quantities` names them. Raises `InputError` for speeds of both directions and for fewer than three different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")
@@ -401,6 +424,7 @@ def through(numbers: dict[str, np.ndarray]) -> Interpolant:
         thickness=solved["film_to_roughness_ratio"],
         clearance=solved["clearance"],
         steepness=solved["steepness"],
+        numerical=np.nan_to_num(solved["numerical_error"]),
     )
     return Interpolant(samples, knee_of(samples), sense=float(np.sign(solved["speed"][0])))
 

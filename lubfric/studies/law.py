@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .._base import FloatArray, Shown, plain, validate
 from ..errors import InputError
+from ..models.shared import LARGE_NUMERICAL_ERROR, percent
 from ..scene import Scene
 from .interpolate import Interpolant
 
@@ -131,8 +132,13 @@ class Law(Shown):
 
     @property
     def error_in_words(self) -> str:
-        """How far the formula deviates from the curves to which it is fitted, as text."""
-        return f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves"
+        """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as text."""
+        of_points = (
+            f"whose points are known within {100 * self.interval:.2g} % (95 %, model included)"
+            if np.isfinite(self.interval)
+            else "whose points have errors that are not known"
+        )
+        return f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves, {of_points}"
 
     @property
     def warning(self) -> str:
@@ -148,15 +154,13 @@ class Law(Shown):
     def text(self) -> str:
         """The formula, its numbers, range and error."""
         (low, high), T, p = self.ranges.values()
-        known = f"the points within {100 * self.interval:.2g} % of the truth (95 %, model included)"
         return "\n".join(
             [
                 f"friction of {self.name} over U (m/s), T (K), mean Hertz pressure p (Pa)",
                 *([f"  {self.warning}"] if self.warning else []),
                 *(f"  {name} = {expression}" for name, expression in _expressions(self.numbers).items()),
                 "  with " + ", ".join(f"{name} = {number:.6g}" for name, number in self.numbers.items()),
-                f"  {self.error_in_words}; "
-                + (known if np.isfinite(self.interval) else "the error of the points is not known"),
+                f"  {self.error_in_words}",
                 f"  for |U| up to {high:.4g} m/s, slower than {low:.4g} m/s continued to 0 at rest; "
                 f"{_range('T', T, 'K')}; {_range('p', p, 'Pa')}",
             ]
@@ -230,9 +234,10 @@ def law_of(
 ) -> Law:
     """Return the `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
     ``model``: of all points, arrays with their intervals, and their errors by the model. Raises `InputError` where
-    there are too few points, or f is not positive."""
+    there are too few points, f is not positive, or the numerical error of a point is above `LARGE_NUMERICAL_ERROR`."""
     rows = [np.zeros((7, 0))]
     for known, curve in curves:
+        _check_numerical_errors(curve)
         solved = curve.samples.speed
         fine = np.geomspace(solved[0], solved[-1], FITTED_SPEEDS)
         fine = np.append(solved, fine[curve.error(fine) < USABLE_ERROR])
@@ -261,6 +266,18 @@ def law_of(
         rms=float(np.sqrt(np.mean(deviations**2))),
         interval=float(widths.max()),
     )
+
+
+def _check_numerical_errors(curve: Interpolant) -> None:
+    """Raise `InputError` where f of a point of a ``curve`` is an order of magnitude."""
+    s = curve.samples
+    worst = int(np.argmax(s.numerical))
+    if s.numerical[worst] > LARGE_NUMERICAL_ERROR:
+        raise InputError(
+            f"the numerical error of f at {s.speed[worst]:.4g} m/s is {percent(float(s.numerical[worst]))}, and a formula needs at most "
+            f"{percent(LARGE_NUMERICAL_ERROR)}",
+            recommendation="see the warnings of that point, or omit its speed",
+        )
 
 
 def law_of_study(result: Any) -> Law:

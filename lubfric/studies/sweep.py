@@ -20,7 +20,7 @@ from ..models.shared import Prepared, percent, scene_of
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene, check_ratios
 from .choose import alike, between, each_once, requested_speeds, span, tolerance_between
-from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
+from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, points_of_interpolation, report_of
 from .interpolate import FEWEST_SPEEDS, Interpolant, Minimum, through
 from .law import MORE_SPEEDS, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, solved
@@ -77,15 +77,21 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     def lift_off(self) -> float | None:
         """The lift-off speed [m/s], in the direction of the curve, above which the film separates the surfaces; None if
         the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
-        ``lift_off_range`` has these."""
+        or the numerical error of f there is above 20 %: ``lift_off_range`` has these."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
     @property
     def lift_off_range(self) -> tuple[float, float]:
         """(lowest, highest) speed [m/s] at which ``lift_off`` may lie, by the interpolation between the points, without
-        the sampling error; the solved speeds around it where ``lift_off`` is NaN; NaN where there is none."""
+        the sampling error; the solved speeds around it where ``lift_off`` is NaN, or the clearance of the film is not
+        computed; NaN where there is none."""
         low, high = sorted(self._curve.sense * end for end in self._curve.lift_off_range)
         return low, high
+
+    @property
+    def numerical_at_lift_off(self) -> float:
+        """The largest relative numerical error of f at the solved speeds around lift-off; 0 where there is none."""
+        return self._curve.numerical_at_lift_off
 
     @property
     def least(self) -> tuple[float, float]:
@@ -95,8 +101,16 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @cached_property
     def minimum(self) -> Minimum:
-        """The least f between the solved speeds, with the range in which it and its speed lie by the interpolation."""
-        return self._curve.minimum()
+        """The least f between the solved speeds, with its 95 % interval: it combines the error of the interpolation with the
+        wider interval of the two solved points beside it."""
+        least = self._curve.minimum()
+        f = self.coefficient
+        beside = _around(self.speed, f, least.speed)
+        (low, high) = self.uncertainty.interval[beside].T
+        below = np.hypot(np.max((f[beside] - low) / f[beside]), 1.0 - least.interval[0] / least.coefficient)
+        above = np.hypot(np.max((high - f[beside]) / f[beside]), least.interval[1] / least.coefficient - 1.0)
+        interval = least.coefficient * (1.0 - below), least.coefficient * (1.0 + above)
+        return replace(least, interval=(float(min(interval)), float(max(interval))))
 
     @cached_property
     def between(self) -> float:
@@ -105,12 +119,12 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @cached_property
     def _curve(self) -> Interpolant:
-        return through(columns_of(self.points))
+        return through(points_of_interpolation(self.points))
 
     def law(self) -> Law:
         """Return the curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
-        ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f between the speeds is not known
-        within 5 %."""
+        ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f is not interpolated between the speeds
+        within 5 %, or the numerical error of a point is above 20 %."""
         if self.between > DRAWN_ERROR:
             limit = f"a formula needs at most {percent(DRAWN_ERROR)}"
             error = percent(self.between) if np.isfinite(self.between) else "not known"
@@ -123,6 +137,15 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     def to_csv(self, path: str | Path) -> None:
         """Write the table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
         write_whole(path, csv_bytes(self))
+
+
+def _around(speeds: np.ndarray, f: np.ndarray, place: float) -> np.ndarray:
+    """Return the indices of the two solved points, of those with an ``f``, between whose ``speeds`` a ``place`` [m/s] lies."""
+    solved = np.flatnonzero(np.isfinite(f) & (speeds != 0))
+    solved = solved[np.argsort(np.abs(speeds[solved]))]
+    right = np.searchsorted(np.abs(speeds[solved]), abs(place)).clip(1, solved.size - 1)
+    around: np.ndarray = solved[[right - 1, right]]
+    return around
 
 
 @with_default_errors

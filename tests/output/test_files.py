@@ -109,7 +109,7 @@ def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path):
                 names[name] = eval(expression, {}, names)
             assert abs(names["f"] / f - 1) <= law["largest"] * 1.001 < 0.05
         assert f"f = {names['f']:.4g} at U = {speeds[-1]:.4g} m/s" in text
-        shown = re.search(r"separates the surfaces, is (\S+) m/s \((\S+) to (\S+) m/s\)", text)
+        shown = re.search(r"separates the surfaces, is (\S+) m/s \((\S+) to (\S+) m/s by the solved", text)
         assert (shown is not None) == (curve.lift_off is not None) == (len(speeds) == 9)
         if shown:
             low, high = curve.lift_off_range

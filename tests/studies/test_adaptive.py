@@ -44,6 +44,7 @@ class Made:
             thickness=film,
             clearance=clearance,
             steepness=self.steepness(speeds),
+            numerical=np.zeros(speeds.size),
         )
 
     def through(self, speeds):
@@ -108,6 +109,7 @@ def test_f_between_points_that_a_spline_overshoots_is_not_known():
         thickness=np.ones(4),
         clearance=np.full(4, np.nan),
         steepness=np.full(4, np.nan),
+        numerical=np.zeros(4),
     )
     result = Interpolant(samples, None)
     with warnings.catch_warnings():

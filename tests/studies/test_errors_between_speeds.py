@@ -2,6 +2,7 @@
 only where they bracket it."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,7 +11,7 @@ from test_adaptive import Made
 
 from lubfric.output.report import minimum_in_words
 from lubfric.studies.choose import between
-from lubfric.studies.interpolate import through
+from lubfric.studies.interpolate import Interpolant, knee_of, through
 
 NAN = float("nan")
 
@@ -34,6 +35,7 @@ def paper_curve(indices):
         "film_to_roughness_ratio": SEPARATION,
         "clearance": CLEARANCE,
         "steepness": np.full(SPEED.size, NAN),
+        "numerical_error": np.zeros(SPEED.size),
     }
     return through({name: values[indices] for name, values in numbers.items()})
 
@@ -108,6 +110,36 @@ def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, si
     assert {abs(float(text)) for text in re.findall(r"-?\d[\d.]*", minimum_in_words(curve))} <= {0.05, 2.0, 5.0}
 
 
+@pytest.mark.parametrize("numerical, is_stated", [(0.19, True), (0.5, False)])
+def test_lift_off_is_stated_with_the_errors_of_the_points_beside_it(numerical, is_stated):
+    """A numerical error of 50 % at a point beside it leaves the solved speeds. So does a film whose clearance is not computed:
+    its middle has the solved speeds as its range."""
+    made = Made(0.05, 1.0)
+    speeds = np.array([0.01, 0.03, 0.045, 0.06, 0.2])
+    samples = made.samples(speeds)
+    errors = np.where(speeds == 0.045, numerical, 0.0)
+    curve = Interpolant(replace(samples, numerical=errors), made.through(speeds).lift_off)
+    assert np.isfinite(curve.lifted) == is_stated and curve.lift_off_range[0] <= 0.05 <= curve.lift_off_range[1]
+    assert (curve.lift_off_range == (0.045, 0.06)) != is_stated
+    without = replace(samples, clearance=np.full(5, NAN))
+    middle = Interpolant(without, knee_of(without))
+    assert middle.lifted == pytest.approx(np.sqrt(0.045 * 0.06)) and middle.lift_off_range == (0.045, 0.06)
+    at = np.geomspace(0.0451, 0.0599, 20)
+    assert np.all(np.abs(middle.at(at) - sum(made.at(at))) <= middle.error(at) * middle.at(at))
+
+
+def test_a_numerical_error_of_the_points_widens_the_place_of_the_minimum():
+    """At 10 % each speed whose f is within the errors of both may have the least."""
+    made = Made(0.05, 0.8)
+    speeds = np.geomspace(1e-3, 1.0, 25)
+    samples = replace(made.samples(speeds), numerical=np.full(25, 0.1))
+    wide = Interpolant(samples, made.through(speeds).lift_off).minimum().speeds
+    at = np.geomspace(1e-3, 1.0, 4000)
+    f = sum(made.at(at))
+    candidates = at[0.9 * f <= 1.1 * f.min()]
+    assert wide[0] <= candidates.min() and wide[1] >= candidates.max()
+
+
 def test_the_curve_goes_through_points_whose_film_carries_hardly_any_load():
     """As those of a slow needle roller, whose flanks of roughness turn the force of the film round."""
     film_load = np.array([0.7, 2.0, 9.0, 38.0, 171.0])
@@ -123,6 +155,7 @@ def test_the_curve_goes_through_points_whose_film_carries_hardly_any_load():
         "film_to_roughness_ratio": np.full(5, 0.7),
         "clearance": np.full(5, NAN),
         "steepness": np.full(5, NAN),
+        "numerical_error": np.zeros(5),
     }
     curve = through(numbers)
     np.testing.assert_allclose(curve.at(numbers["speed"]), numbers["coefficient"], rtol=1e-12)

@@ -150,6 +150,23 @@ def test_what_it_cannot_hold_is_refused(study):
         lubfric.study(SCENE, {"surface.sq": [1e-7, 2e-7]}, [1.0]).law()
 
 
+def test_a_law_states_the_errors_of_its_points_and_refuses_points_without_a_digit():
+    """The mean of 40 % below f and 20 % above it is 30 %; a numerical error of 30 % is an order of magnitude."""
+    curve = lubfric.stribeck(SCENE, np.geomspace(0.02, 3.0, 8))
+
+    def with_errors(point, numerical):
+        interval = (0.6 * point.coefficient, 1.2 * point.coefficient)
+        known = dataclasses.replace(point.uncertainty, numerical=numerical, model=0.01, interval=interval)
+        return dataclasses.replace(point, uncertainty=known)
+
+    points = tuple(with_errors(point, 0.19) for point in curve.points)
+    law = dataclasses.replace(curve, points=points).law()
+    assert "known within 30 %" in law.error_in_words and law.error_in_words in law.c.split("*/")[0]
+    points = (*points[:3], with_errors(points[3], 0.3), *points[4:])
+    with pytest.raises(lubfric.InputError, match="numerical error of f at .* is 30 %"):
+        dataclasses.replace(curve, points=points).law()
+
+
 def test_a_law_that_misses_its_own_points_has_a_warning_before_all_else(law):
     """In its text, in C and in JSON; one within the limit states its error without a warning."""
     poor = dataclasses.replace(law, largest=0.72)
