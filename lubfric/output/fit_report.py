@@ -230,7 +230,7 @@ def _warnings(result: FitResult) -> str:
     """Return the warnings of the points, and to which tolerance on f they refer where the fit set one."""
     of_tolerance = result.tolerance_in_words
     above = f"<p>{escape(sentence(of_tolerance))}</p>" if of_tolerance and result.validity else ""
-    return above + warnings_and_notes(result.validity)
+    return above + warnings_and_notes(result.gathered)
 
 
 def _effects(result: FitResult) -> str:

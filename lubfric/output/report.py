@@ -16,11 +16,11 @@ from ..models.shared import (
     LARGE_NUMERICAL_ERROR,
     Assumption,
     ExpectedEffect,
+    GatheredTexts,
     Prepared,
     UnmodelledEffect,
     at_values,
     change_in_words,
-    is_note_text,
     percent,
     percent_of_sides,
     sentence,
@@ -136,7 +136,7 @@ def report_page(
         | {
             "name": escape(scene.name),
             "curve": _pictures(contents, shows_answer=True, caption=_caption_of_point(result)),
-            "warnings": warnings_and_notes([*result.validity, *gap_notes(result)]),
+            "warnings": warnings_and_notes(result.gathered, gap_notes(result)),
             "inputs": "".join(inputs_as_given(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": _pictures(contents, shows_answer=False)
             or "<p>There is no contact or rough surface to show.</p>",
@@ -157,7 +157,7 @@ def methods_to_quote(facts: Sequence[str], result: Any) -> str:
 
 def gap_notes(result: CurveResult | TransientResult) -> list[str]:
     """Return a note for each range in which a traction curve does not determine f; none for other results."""
-    return [f"note: {gap.text}" for gap in result.gaps] if isinstance(result, TractionResult) else []
+    return [gap.text for gap in result.gaps] if isinstance(result, TractionResult) else []
 
 
 def _caption_of_point(result: CurveResult | TransientResult) -> str:
@@ -683,7 +683,9 @@ def _law(law: Law | str, curve: CurveResult) -> str:
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
         deviation, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
-        warning = f'<p class="warning">{escape(sentence(_without_head(law.warning)))}</p>' if law.warning else ""
+        warning = (
+            f'<p class="warning">{escape(sentence(law.warning.removeprefix("warning: ")))}</p>' if law.warning else ""
+        )
         text = (
             f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
             f"most {deviation} from the curve through the solved points, which adds at most {within} between them to "
@@ -943,20 +945,15 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
     return head + table(heads, rows, in_sentences=True)
 
 
-def warnings_and_notes(validity: Iterable[str]) -> str:
-    """Return the list of the warnings in ``validity``, and below it that of the notes, each a sentence."""
-    texts = {text: sentence(_without_head(text)) for text in validity}
-    warnings = [shown for text, shown in texts.items() if not is_note_text(text)]
-    notes = [shown for text, shown in texts.items() if is_note_text(text)]
+def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterable[str] = ()) -> str:
+    """Return the list of the warnings among the ``gathered`` violations, and below it that of the notes and the
+    ``further_notes``, each a sentence."""
+    known = list(gathered)
+    warnings = [sentence(each.text) for each in known if not each.is_note]
+    notes = [sentence(each.text_without_head) for each in known if each.is_note]
+    notes += map(sentence, further_notes)
     heading = "<h3>Notes</h3>" if notes else ""
     return bullets(warnings, "No checked limit of the model is exceeded.", "warning") + heading + bullets(notes)
-
-
-def _without_head(text: str) -> str:
-    """Return the text of a violation without the word that says whether it is a warning or a note."""
-    for head in ("warning", "note"):
-        text = text.removeprefix(f"{head}: ").replace(f": {head}: ", ": ", 1)
-    return text
 
 
 def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:

@@ -222,7 +222,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
         _write(folder, prepared, curve, arguments, estimate, [], measured)
         notes = gap_notes(curve)
         for note in notes[:MOST_GAPS]:
-            say(note)
+            say(f"note: {note}")
         if len(notes) > MOST_GAPS:
             say(f"note: report.html names {counted(len(notes) - MOST_GAPS, 'more ranges')} in which f is not known")
     _raise_if_failed(curve)

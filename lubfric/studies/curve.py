@@ -16,7 +16,7 @@ from ..estimate import (
     curve_of,
     row_of_uncertainty,
 )
-from ..models.shared import Violation, gathered, in_a_cell, is_note_text, violations_of
+from ..models.shared import GatheredTexts, Violation, gathered_on_curve, in_a_cell, violations_of
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted, heading
 
 
@@ -66,10 +66,15 @@ class CurveResult(Renamed, Shown):
 
     @property
     def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that is violated somewhere."""
+        """One text for each assumption that is violated somewhere, which begins with where."""
+        return tuple(each.text_with_head for each in self.gathered)
+
+    @property
+    def gathered(self) -> tuple[GatheredTexts, ...]:
+        """The violations of all points, in one record for each assumption."""
         name, _, unit, plural = self.SWEPT
         values = getattr(self, name).tolist()
-        return gathered([(value, self.violations(i)) for i, value in enumerate(values)], unit, plural)
+        return gathered_on_curve([(value, self.violations(i)) for i, value in enumerate(values)], unit, plural)
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used at any of the points, the model's first: one a line, or with
@@ -87,7 +92,7 @@ class CurveResult(Renamed, Shown):
                 symbol: f"{known.min():.4g} to {known.max():.4g} {unit}".rstrip(),
                 "f": f"{f.min():.4g} to {f.max():.4g}",
             }
-        warnings = [text for text in self.validity if not is_note_text(text)]
+        warnings = [each for each in self.gathered if not each.is_note]
         return facts | {"failed": str(len(self.errors)), "warnings": str(len(warnings))}
 
 

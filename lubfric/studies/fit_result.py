@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from itertools import combinations
 from typing import TYPE_CHECKING
@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import FrictionResult, cite_together
-from ..models.shared import Violation, gathered, percent, student
+from ..models.shared import GatheredTexts, Violation, gathered_on_curve, percent, student
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests
@@ -158,12 +158,22 @@ class FitResult(Renamed, Shown):
 
     @property
     def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that does not hold at some of the points."""
+        """One text for each assumption that does not hold at some of the points, which begins with where."""
+        return tuple(each.text_with_head for each in self.gathered)
+
+    @property
+    def gathered(self) -> tuple[GatheredTexts, ...]:
+        """The violations of all points, in one record for each assumption."""
         unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
-        texts = gathered(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
+        records = gathered_on_curve(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
         if not self.tolerance_in_words:
-            return texts
-        return tuple(reduce(lambda text, words: text.replace(*words), OF_THE_FIT.items(), text) for text in texts)
+            return records
+        return tuple(
+            replace(
+                each, statement=reduce(lambda text, words: text.replace(*words), OF_THE_FIT.items(), each.statement)
+            )
+            for each in records
+        )
 
     @property
     def at_bounds(self) -> tuple[str, ...]:

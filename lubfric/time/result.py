@@ -11,11 +11,12 @@ from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models.load_sharing import OF_ROLLING
 from ..models.shared import (
+    GatheredTexts,
     Prepared,
     Violation,
     at_largest_ends,
     below_and_above,
-    gathered,
+    gathered_on_curve,
     largest_at_load,
     percent,
     student,
@@ -236,8 +237,13 @@ class TransientResult(Renamed, Shown):
 
     @property
     def validity(self) -> tuple[str, ...]:
-        """One sentence for each assumption that does not hold at some time."""
-        return gathered(list(zip(self.time.tolist(), self.violations)), "s", "outputs")
+        """One text for each assumption that does not hold at some time, which begins with when."""
+        return tuple(each.text_with_head for each in self.gathered)
+
+    @property
+    def gathered(self) -> tuple[GatheredTexts, ...]:
+        """The violations of all outputs, in one record for each assumption."""
+        return gathered_on_curve(list(zip(self.time.tolist(), self.violations)), "s", "outputs")
 
     @property
     def uncertainty(self) -> UncertaintyCurve:

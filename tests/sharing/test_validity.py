@@ -16,8 +16,8 @@ from lubfric.models.shared import (
     Violation,
     gathered,
     gathered_in_table,
+    gathered_on_curve,
     in_a_cell,
-    is_note_text,
     sentence,
     violations_by_bodies,
     violations_by_deflection,
@@ -280,8 +280,9 @@ def test_notes_are_apart_from_warnings():
         what="slip", value=7.0, limit=5.0, unit="%", consequence="it slides", recommendation="", is_note=True
     )
     assert note.text == "note: slip is 7 %, above 5 %. It slides."
-    texts = gathered([(0.1, (entry(8.0),)), (0.2, (note,))])
-    assert [is_note_text(text) for text in texts] == [False, True]
+    on_curve = gathered_on_curve([(0.1, (entry(8.0),)), (0.2, (note,))])
+    assert [each.is_note for each in on_curve] == [False, True]
+    assert on_curve[1].text_without_head == "at 0.2 m/s: slip is 7 %, above 5 %. It slides."
     assert [each.is_note for each in gathered_in_table([[note, entry(8.0)]])] == [True, False]
     assert in_a_cell([note, entry(8.0)]) == f"{note.text} | {entry(8.0).text}" and not in_a_cell([])
 

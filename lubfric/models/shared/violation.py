@@ -190,11 +190,6 @@ def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
     return () if checked is None else checked.validity
 
 
-def is_note_text(text: str) -> bool:
-    """Return whether ``text``, of one violation or gathered over points, is that of a note."""
-    return text.startswith("note: ") or ": note: " in text
-
-
 def first_sentence(text: str) -> str:
     """Return the first sentence of ``text``, of one violation or gathered over points, which is what is violated."""
     return text.partition(". ")[0]
@@ -208,22 +203,27 @@ def in_a_cell(violations: Iterable[Violation]) -> str:
 def gathered(
     points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[str, ...]:
-    """Return one sentence for each assumption that is violated anywhere: at how many points, from where to where, and
-    the smallest and the largest value with their places; what it does and what to do: of the worst value, with the
-    places where that is the same, if not all.
+    """Return the texts of `gathered_on_curve`, each with its `Violation.head`."""
+    return tuple(each.text_with_head for each in gathered_on_curve(points, unit, name))
+
+
+def gathered_on_curve(
+    points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
+) -> tuple[GatheredTexts, ...]:
+    """Return one text for each assumption that is violated anywhere: at how many points, from where to where, and the
+    smallest and the largest value with their places; what it does and what to do: of the worst value, with the places
+    where that is the same, if not all.
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
     lines = []
     for group in _groups(points):
         (_, worst) = max(group, key=lambda pair: _distance(pair[1]))
-        values = sorted(value for value, _ in group)
-        if len(group) == 1:
-            lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
-        else:
-            alike = _alike(group, worst)
-            places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
-            lines.append(f"{at_values(values, unit, name)}: {worst.text_of(_from_to(group, unit), *places)}")
+        alike = _alike(group, worst)
+        places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
+        place = at_values(sorted(value for value, _ in group), unit, name)
+        statement = worst.statement(_from_to(group, unit), *places)
+        lines.append(GatheredTexts(statement=statement, place=place, violation=worst))
     return tuple(lines)
 
 
@@ -258,13 +258,13 @@ def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class GatheredTexts:
-    """What is violated at some points of a table.
+    """What is violated at some points of a table or of a curve.
 
     Attributes
     ----------
     statement : what is violated, what that does and what to do, in sentences
     place : the points, as text; "" of no point
-    numbers : of these points, from 1
+    numbers : of these points, from 1; () on a curve
     violation : that of the worst value; None: it is of no point
     """
 
@@ -283,6 +283,12 @@ class GatheredTexts:
         """The place, the `Violation.head` unless it is that of a warning, and the statement."""
         head = "" if self.violation is None else self.violation.head
         return ": ".join(part for part in (self.place, head.removeprefix("warning"), self.statement) if part)
+
+    @property
+    def text_with_head(self) -> str:
+        """The place, the `Violation.head` and the statement."""
+        head = "" if self.violation is None else self.violation.head
+        return ": ".join(part for part in (self.place, head, self.statement) if part)
 
     @property
     def text_without_head(self) -> str:
