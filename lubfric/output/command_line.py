@@ -153,14 +153,18 @@ def info(arguments: Namespace) -> None:
     """Say what a scene is. Then raise what 'lubfric run' would, where it is certain to refuse the scene."""
     from ..models.shared import refused, violations_by_unusual_inputs
     from .describe import described_scene
-    from .run_curve import parse_speeds
+    from .run_curve import parse_ratios, parse_speeds
 
     scene = scene_of(arguments)
     speeds = arguments.speeds
-    if speeds is not None and scene.transient is not None:
-        raise InputError("--speeds is for a curve, and this is a scene with [transient]; omit it")
+    for option in ("speeds", "ratios"):
+        if getattr(arguments, option) is not None and scene.transient is not None:
+            raise InputError(f"--{option} is for a curve, and this is a scene with [transient]; omit it")
+    if speeds is not None and arguments.ratios is not None:
+        raise InputError("--ratios is for a traction curve, and --speeds for a Stribeck curve; omit one of them")
     chosen = speeds if speeds == "auto" else parse_speeds("--speeds", speeds)
-    (description, estimate) = described_scene(scene, chosen, measures=True)
+    ratios = parse_ratios(arguments.ratios)
+    (description, estimate) = described_scene(scene, chosen, ratios, measures=True)
     answer(description + "\n")
     refused(violations_by_unusual_inputs(scene), accept=scene.numerics.accept)
     if scene.transient is not None:

@@ -153,10 +153,11 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 
 
 def described_scene(
-    scene: Scene, speeds: Sequence[float] | str = (), *, measures: bool = False
+    scene: Scene, speeds: Sequence[float] | str = (), ratios: Sequence[float] = (), *, measures: bool = False
 ) -> tuple[str, SceneEstimate]:
-    """Return the text of `describe_scene`, and what it states. ``measures``: where a strip of moving roughness takes
-    more than `MEASURED_FROM`, its first steps in time are solved, and the processor time follows from them."""
+    """Return the text of `describe_scene`, and what it states; of a traction curve at the slide-roll ``ratios``.
+    ``measures``: where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved, and the
+    processor time follows from them."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
@@ -164,8 +165,8 @@ def described_scene(
         surface = sample.stated_map()
         check_map(scene, surface, sample.maps_before_extension[0])
     work = WorkOfPoints(scene, sample, surface)
-    measured = _measured_times(work, speeds) if measures else {}
-    estimate = estimate_scene(scene, sample, surface, speeds, measured=measured, work=work)
+    measured = _measured_times(work, speeds) if measures and not len(ratios) else {}
+    estimate = estimate_scene(scene, sample, surface, speeds, ratios, measured=measured, work=work)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
@@ -214,8 +215,8 @@ def estimate_scene(
         scene_speed = max(speeds)
     model, seconds = _model(work, speeds, ratios, measured or {})
     beside = COMMAND_SECONDS
-    if scene.transient is None and sample.is_resolved:
-        beside += work.at(scene_speed).fine_fields_seconds
+    if scene.transient is None and sample.is_resolved and not len(ratios):
+        beside += work.at(min(speeds, key=lambda speed: abs(speed - scene_speed))).fine_fields_seconds
     within = WITHIN_WORDS
     for time in (measured or {}).values():
         within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
@@ -477,7 +478,8 @@ def _speed_table(
     chosen = ("deterministic strips",) if scene.numerics.model == AUTO else ()
     if sample.is_resolved:
         table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
-    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
+    operating_point = min(speeds, key=lambda speed: abs(speed - scene.motion.entrainment_speed))
+    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], operating_point, speeds[-1]}):
         one = work.at(speed, measured)
         film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:

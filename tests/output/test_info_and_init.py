@@ -89,7 +89,7 @@ def test_info_refuses_no_newtonian_oil_between_asperities_that_friction_answers(
 
 def test_few_or_no_asperities_are_stated_only_above_a_lambda_ratio_of_3():
     """At 0.046 m/s, lambda ratio some 2, the paper's contact has F_C/F_T = 0.116."""
-    rows = describe_scene(lubfric.load_scene("paper"), [0.01, 0.0464, 0.1, 0.3, 3.0]).partition("U [m/s]")[2]
+    rows = describe_scene(lubfric.load_scene("paper"), [0.001, 0.01, 0.0464, 0.1, 0.3, 3.0]).partition("U [m/s]")[2]
     said = re.findall(r"^ +[\d.]+ +[\d.]+ +[\d.]+ +[\d.]+ +([\d.]+) +(yes|likely|few or none|no) ", rows, re.M)
     assert len(said) >= 5 and {words for _, words in said} >= {"likely", "no"}
     assert all(float(ratio) >= 3 for ratio, words in said if words == "few or none")

@@ -60,3 +60,19 @@ def test_speeds_of_the_command_alone_are_solved_and_the_first_lines_say_so(tmp_p
     assert main(["run", str(again), "--out", str(tmp_path / "again")]) == 0
     both = [(tmp_path / name / "stribeck.csv").read_bytes() for name in ("out", "again")]
     assert both[0] == both[1]
+
+
+@pytest.mark.parametrize("option", ["--speeds=0.01,0.1", "--ratios=0.1,0.2"])
+def test_info_estimates_the_points_that_a_run_with_the_same_option_solves(tmp_path, capsys, option):
+    """A row of the operating point was in the table of speeds that the run did not solve; of ratios one point was estimated."""
+    (tmp_path / "scene.toml").write_text(scene("entrainment_speed = 0.05"))
+    assert main(["info", str(tmp_path / "scene.toml"), option]) == 0
+    text = capsys.readouterr().out
+    assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "out"), option]) == 0
+    stated = " ".join(capsys.readouterr().err.split()).partition("estimate: ")[2]
+    (cost,) = re.findall("cost: (about .* of processor time for 2 (?:speeds|ratios))", " ".join(text.split()))
+    assert stated.startswith(cost)
+    points = json.loads((tmp_path / "out" / "result.json").read_text())["points"]
+    rows = text.partition("U [m/s]")[2].splitlines()
+    listed = [row.split()[0] for row in rows if re.match(r"  0\.\d+ ", row)]
+    assert listed == list(dict.fromkeys(f"{point['speed']:.4g}" for point in points))
