@@ -80,6 +80,10 @@ class Sample(ABC):
         Every n-th of its cells, along each axis, gives the coarse cells to compare it with (`Cells.thinned`).
         """
 
+    def length_of_piece(self, length: float) -> float:
+        """Return the length [m] along y of a piece of this ``length`` [correlation lengths], no longer than the surface."""
+        return length * self.correlation_lengths[1]
+
     def piece_is_strip(self, length: float) -> bool:
         """Return whether a piece of this ``length`` [correlation lengths] is all of the strip of the same number."""
         return False

@@ -264,6 +264,9 @@ class MeasuredStrips(Sample):
         piece = joined_maps([window[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
+    def length_of_piece(self, length: float) -> float:
+        return self._rows_of_piece(length) * self.surface.spacing[1]
+
     def piece_is_strip(self, length: float) -> bool:
         (_, fy) = self.cells.coarsening
         return self._rows_of_piece(length) == self.rows_of(1) * fy

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..estimate import PointWorkEstimate, estimated_work_of_point, seconds_of_points
-from ..models.load_sharing import expected_gap
+from ..models.load_sharing import PaperModel, expected_gap
 from ..samples import Sample
 from ..scene import Harmonic, History, Scene, Table
 from ..surface import Surface
@@ -109,7 +109,9 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     of the gap that the film fills.
     """
     transient = transient_of(scene)
-    points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
+    by_load_sharing = scene.with_(numerics={"model": PaperModel().name})  # whatever model steady friction would be by
+    speeds = speeds_of_run(scene) or [0.0]
+    points = [estimated_work_of_point(by_load_sharing, sample, surface, speed) for speed in speeds]
     widest = None
     cells = surface.heights.size
     if sample.represents_more:

@@ -60,6 +60,18 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     np.testing.assert_array_equal(line.heights[:, 20:40], own[:, 20:40])
 
 
+def test_a_piece_has_the_stated_length_and_is_no_longer_than_its_map():
+    """The time of the fields of a piece was estimated for ten times as many cells as a narrow map holds."""
+    surface = lubfric.generate_surface((600, 256), 0.45e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=1)
+    generated = lubfric.prepare(PAPER).sample
+    for sample in (generated, measured_strips(PAPER.with_(contact={"shape": None, "spacing": None}), surface)):
+        for length in (8.0, 20.0, 300.0):
+            piece = sample.piece(0, length)
+            stated = sample.length_of_piece(length)
+            assert stated == pytest.approx(piece.size[1], rel=0.2)  # rows that suit the transform
+            assert sample is generated or stated <= surface.size[1]
+
+
 @pytest.mark.parametrize("width", [4])
 def test_a_map_too_narrow_for_a_line_is_refused_by_its_width(tmp_path, width):
     np.save(tmp_path / "m.npy", np.random.default_rng(0).normal(0, 1e-8, (64, width)))

@@ -77,3 +77,12 @@ def test_a_starved_contact_needs_the_strips_of_its_smallest_film():
     plan = Transient(0.03, outputs=2, speed=Harmonic(amplitude=2.6, frequency=16.7))
     widest = estimated(plan, ring).widest
     assert widest.speed == pytest.approx(2.6) and 61 / 5 < widest.strips <= 61
+
+
+def test_a_run_by_load_sharing_is_estimated_with_the_strips_of_load_sharing():
+    """By "auto", whose last model takes one strip, a sixth of the cells of the run was estimated."""
+    plan = Transient(0.01, outputs=4, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=100.0))
+    by_auto = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.03})
+    (run, alone) = (estimated(plan, by_auto.with_(numerics={"model": model})) for model in ("auto", "paper"))
+    assert run.widest.strips == alone.widest.strips >= lubfric.prepare(by_auto).sample.first_strips > 1
+    assert run.seconds == pytest.approx(alone.seconds)

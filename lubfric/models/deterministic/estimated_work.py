@@ -484,7 +484,7 @@ def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float, s
         on_patch = expected_steps_of_patch(scene, sq, speed, around / (fx * dx))
         return AT_REST * on_patch.work(around / (fx * dx) * sample.strip_length / (fy * dy), on_patch.first)
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
-    length = pictured_length(scene, sample) * sample.correlation_lengths[1]
+    length = sample.length_of_piece(pictured_length(scene, sample))
     cells = around / (fx * dx) * length / (fy * dy)
     steps = expected_steps(scene, sq, speed)
     return AT_REST * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
