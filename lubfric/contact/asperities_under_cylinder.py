@@ -107,6 +107,8 @@ class AsperityContact(FieldsOnly, RoughContact):
         return self.heights.shape
 
     def _state(self, film: np.ndarray, separation: Any, asperities: AsperityResult | None) -> ContactState:
+        """Return the state of the contact with the surfaces at a ``separation`` [m] under the ``film`` [m];
+        ``asperities``: None where none touches."""
         gap = separation - self.heights
         if self.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)

@@ -73,6 +73,8 @@ def find_asperities(
     map_area = heights.size * spacing[0] * spacing[1]
 
     def at(separation: FloatArray) -> AsperityResult:
+        """Return the sums over the asperities at a ``separation`` [m] of the surfaces, one number or one for each
+        cell."""
         index, overlap, radius = find(np.broadcast_to(np.asarray(separation, dtype=float), heights.shape))
         area = math.pi * radius * overlap
         force = 2 / 3 * e_prime * np.sqrt(radius) * overlap**1.5

@@ -69,8 +69,9 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @property
     def identity(self) -> tuple[Hashable, ...]:
-        """Return all that the deflection depends on: equal only for operators that give the same one. Those of coarsened
-        grids have another zero level than one that was made for their cells, and so another first eigenvalue."""
+        """Return all that the deflection depends on: equal only for operators that give the same one. Those of
+        coarsened grids have another zero level than one that was made for their cells, and so another first
+        eigenvalue."""
         first = float(self.symbol[0, 0])
         precision = self.symbol.dtype.str
         return self.shape, self.spacing, self.e_prime, self.boundary, self.padded, self.layer, precision, first
@@ -196,6 +197,8 @@ def _symbol(
     boundary: tuple[str, str],
     padded: tuple[int, int],
 ) -> np.ndarray:
+    """Return the factors from the transform of a pressure on a grid to that of its deflection [m/Pa], by the
+    ``boundary`` along each axis."""
     if boundary == ("periodic", "periodic"):
         k = wavenumber(shape, spacing)
         k[0, 0] = np.inf

@@ -78,6 +78,7 @@ def _typical_values(scene: Scene, use: MethodUse) -> dict[str, bool]:
 
 
 def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
+    """Return which methods of the oil a point uses, by their names in papers.toml."""
     lubricant = prepared.scene.lubricant
     oil = lubricant.oil
     estimate = ""

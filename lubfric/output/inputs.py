@@ -82,6 +82,7 @@ def input_rows(scene: Scene, section: str) -> list[str]:
 
 
 def _bodies(scene: Scene) -> list[str]:
+    """Return what follows from the bodies and the load, one line each."""
     b = scene.bodies
     if scene.transient is None:
         peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
@@ -121,6 +122,7 @@ def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:
 
 
 def _lubricant(scene: Scene) -> list[str]:
+    """Return what follows from the oil, and the laws that hold for it, one line each."""
     oil = scene.lubricant
     rows = []
     if oil.oil is not None and oil.temperature is not None:
