@@ -222,7 +222,8 @@ def estimate_scene(
         within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
     if not measured and not len(ratios) and _slow_points(work, speeds):
         within = f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
-    cost = f"about {in_words(seconds)} of processor time for {over} ({within})" if seconds else ""
+    more = f"{in_words(beside)} for start, pictures and files of 'lubfric run'"
+    cost = f"about {in_words(seconds)} of processor time for {over} ({within}), and {more}" if seconds else ""
     run = None
     if scene.transient is not None:
         run = estimated_run(scene, sample, surface)
@@ -230,7 +231,7 @@ def estimate_scene(
         cost, lines = _course(scene, run, speeds)
         changing = [cost, *_histories(scene), *lines]
     elif cost:
-        model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
+        model.append(f"cost: {cost}")
     at = [
         *((None, violation) for violation in beforehand(scene, sample, surface)),
         *(

@@ -70,7 +70,7 @@ def test_info_estimates_the_points_that_a_run_with_the_same_option_solves(tmp_pa
     text = capsys.readouterr().out
     assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "out"), option]) == 0
     stated = " ".join(capsys.readouterr().err.split()).partition("estimate: ")[2]
-    (cost,) = re.findall("cost: (about .* of processor time for 2 (?:speeds|ratios))", " ".join(text.split()))
+    (cost,) = re.findall("cost: (about .* for 2 (?:speeds|ratios) .*, and .* of 'lubfric run')", " ".join(text.split()))
     assert stated.startswith(cost)
     points = json.loads((tmp_path / "out" / "result.json").read_text())["points"]
     rows = text.partition("U [m/s]")[2].splitlines()
