@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric._base import limited_work
+from lubfric.estimate import estimated_work_of_point
 from lubfric.models.deterministic import shorter_cells
-from lubfric.models.deterministic.strip import expected_error_after
+from lubfric.models.deterministic.strip import cautious_change, expected_error_after
 
 SPEED = 0.03
 
@@ -84,3 +86,21 @@ def test_the_expected_error_is_the_rest_of_a_geometric_series(ratio):
     assert expected_error_after(changes, 1) == pytest.approx(rest)
     assert expected_error_after(changes, 2) == pytest.approx(rest - ratio**4)
     assert expected_error_after(changes, 1, 3) == pytest.approx(ratio**4 + ratio**5)
+
+
+def test_a_small_change_after_a_large_one_of_the_other_sign_is_not_believed():
+    """On the ridges of a measured map f changes by -5.2, +.3 and +.5 %: the second change does not bound the third."""
+    (first, second, third) = (0.052, 0.003, 0.005)
+    assert cautious_change([first, second]) > third
+    assert cautious_change([first, 0.04]) == 0.04
+
+
+@pytest.mark.parametrize("speed", [0.003, 0.03])
+def test_the_work_of_a_short_strip_is_estimated_within_three(scene, speed):
+    """Oracle: the counted work of the solve, of which the processor takes about two thirds."""
+    prepared = lubfric.prepare(scene)
+    expected = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed).seconds
+    with limited_work(1e3) as meter:
+        lubfric.friction(prepared, speed)
+    taken = 0.64 * meter.spent
+    assert taken / 3 <= expected <= 3 * taken

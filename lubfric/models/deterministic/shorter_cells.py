@@ -34,6 +34,7 @@ from .rough_bodies import map_of_contact
 from .strip import (
     UNKNOWN_SLOPE,
     StripSolution,
+    cautious_change,
     changes_of,
     error_by_cells,
     expected_error_after,
@@ -72,8 +73,8 @@ FACTORISATIONS_OF_START = 100
 # 500. A choice: more solves a few of them, for ten times the work.
 FACTORISATIONS_OF_SHORTER_CELLS = 90
 
-# LU factorisations of a short strip on the shortest cells, at most, all from the solution on longer ones [-]: on 66,560 cells of a
-# measured map 17 to 36 where it converges, and at 40 it still does. A choice: other starts take as many again, and led nowhere.
+# LU factorisations of a short strip on shorter cells, at most, all from the solution on longer ones [-]: 11 to 36 on 33,000 to
+# 67,000 cells of measured maps, where they converge. A choice: other starts take as many again, and led nowhere.
 FACTORISATIONS_OF_LAST_LEVEL = 60
 
 # Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`).
@@ -106,17 +107,17 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
 
-# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: measured 1 to 3
-# on three measured maps, most of all where thin films carry the load.
-FINER_WORK = 1.5
+# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: measured
+# 1.1 to 1.9 on two measured maps.
+FINER_WORK = 1.4
 
 # Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller. A choice
 # between time and that error.
-CHEAP_WORK = 5.0
+CHEAP_WORK = 10.0
 
-# Newton steps that a solve on cells half as long is expected to take [-], whatever the longer ones took: 10 to 36 of 12 solves on
-# the same.
-STEPS_ON_FINER_CELLS = 25
+# Newton steps that a solve on cells half as long is expected to take [-], whatever the longer ones took: measured 11 to 24 on the
+# same.
+STEPS_ON_FINER_CELLS = 16
 
 # Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in
 # the Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the
@@ -221,7 +222,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_too_many=True)
     change = abs(float(np.mean([piece.change for piece in pieces])))  # its error is reported
     if is_continued := _continues_strip(prepared):  # that of a short strip is not
-        (change,) = changes_of(pieces[0].last_two)
+        change = cautious_change((by_longer, *changes_of(pieces[0].last_two)))
     coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
     floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0].on_shortest_cells))
@@ -380,7 +381,10 @@ def _continued(
             coarsening = shorter
             spent += strip.work
             is_first_needed = False
-            by_cells = error_by_cells(changes_of(ladder), max(left - 1, 1) if has_end else math.inf)
+            changes = changes_of(ladder)
+            if has_end:
+                changes[-1] = cautious_change(changes)
+            by_cells = error_by_cells(changes, max(left - 1, 1) if has_end else math.inf)
             error = max(by_cells, LEAST_STRIP_ERROR, error_of_soft_bodies(strip))
     has_too_many = isinstance(failure, TooManyCellsError)
     return Ladder(
