@@ -46,6 +46,10 @@ SECOND_LOAD = 1.03
 # the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
+# Ratio of successive changes from grid to grid of a single strip [-], below which the last may be small by chance. A choice: on the
+# ridges of a measured map f changes by -5.2, +.3 and +.5 %.
+LEAST_FALL = 0.1
+
 # Ratio of successive changes from grid to grid, at most, where their series ends at native cells [-]: 1.7 to 2.2 was
 # seen at 110 N on cells from 1.8 to 0.45 µm. A choice between these.
 GROWING = 2.0
@@ -289,10 +293,14 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
     return changes[-1] * sum(ratio ** (k + 1) for k in range(int(left)))
 
 
-def cautious_change(changes: Sequence[float]) -> float:
-    """Return the last of the ``changes`` of f from grid to grid of a single strip, at least `CHANGE_RATIOS` of the one before: a smaller
-    one may be so by chance, where two effects cancel. On the ridges of a measured map f changed by -5.2, +.3 and +.5 %."""
-    return max(changes[-1], CHANGE_RATIOS[0] * changes[-2])
+def cautious_changes(changes: Sequence[float]) -> tuple[float, float]:
+    """Return the last two of the ``changes`` of f from grid to grid of a single strip, as its `error_by_cells` takes them.
+
+    The last is `LEAST_FALL` of the one before at least, since two effects may cancel in it by chance; the one before is no larger
+    than makes their ratio the least that is expected (`CHANGE_RATIOS`).
+    """
+    last = max(changes[-1], LEAST_FALL * changes[-2])
+    return min(changes[-2], last / CHANGE_RATIOS[0]), last
 
 
 def expected_error_after(changes: Sequence[float], halvings: int, left: float = math.inf) -> float:
