@@ -26,7 +26,7 @@ from ..models.shared import (
     sentence,
 )
 from ..quantities import COLUMNS, KEYS, counted, worded_value
-from ..scene import Scene, short_keys
+from ..scene import Scene, moment_in_words, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult, columns_of_curve
 from ..time import TransientResult, effects_of_run, in_motion, rolls, run_model_of
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
@@ -771,21 +771,21 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     if result.model_form_unknown:
         sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
     range_ = with_interval(float(f[peak]), low, high, level)
-    sentences.append(f"The largest f is {range_}, at t = {_moment(scene, result, peak)}.")
+    sentences.append(f"The largest f is {range_}, at t = {_moment(result, peak)}.")
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(scene, result)}.")
+        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(result)}.")
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
         if run_model_of(scene).solves_rough_film
-        else f"The solved film is thinnest {_moment_of_least_film(scene, result)}: {film}."
+        else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
         sentences.append(
             "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies between "
-            f"{_number(float(ratio.min()))} and {_number(float(ratio.max()))}."
+            f"{_number(float(ratio.min()))} and {_number(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )
     solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
     if solved.size:
@@ -793,35 +793,42 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
             f"The solved central separation lies between {_number(float(solved.min()))} and {_number(float(solved.max()))} "
             "times Sq."
         )
+    if result.start_in_words:
+        sentences.append(result.start_in_words)
     return sentences
 
 
-def _moment(scene: Scene, result: TransientResult, index: int) -> str:
+def _moment(result: TransientResult, index: int) -> str:
     """Return the time of an output, and the angle of rotation where it is known, as text."""
-    assert scene.transient is not None
-    return scene.transient.moment_in_words(float(result.time[index]))
+    return moment_in_words(float(result.time[index]), float(result.angle_of_rotation[index]))
 
 
-def _largest_power_loss(scene: Scene, result: TransientResult) -> str:
+def _without_lambda_ratio(result: TransientResult) -> str:
+    """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for none."""
+    count = int(np.sum(~rolls(result.columns)))
+    return f"; {counted(count, 'outputs')} without entrainment {'have' if count > 1 else 'has'} none" if count else ""
+
+
+def _largest_power_loss(result: TransientResult) -> str:
     """Return the largest power loss of a run, with its interval where that is known, and its time, as text."""
     columns = result.columns
     index = int(np.nanargmax(result.power_loss))
     (low, high) = (float(columns[f"power_loss_{end}"][index]) for end in ("low", "high"))
     largest = with_interval(float(result.power_loss[index]), low, high, unit="W")
-    return f"the largest {largest} at t = {_moment(scene, result, index)}"
+    return f"the largest {largest} at t = {_moment(result, index)}"
 
 
-def _moment_of_least_film(scene: Scene, result: TransientResult) -> str:
+def _moment_of_least_film(result: TransientResult) -> str:
     """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
     index = int(np.nanargmin(result.min_film))
     film = 1.0 - float(result.contact_load[index] / result.load[index])
     others = " and asperities carry the rest" if film < 1.0 else ""
-    return f"at t = {_moment(scene, result, index)}, where it carries {100 * film:.3g} % of the load{others}"
+    return f"at t = {_moment(result, index)}, where it carries {100 * film:.3g} % of the load{others}"
 
 
 def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
     """Return what a reader of f and of its mean should know: which model answers, and where a steady point may have a
-    narrower interval; why f is negative at some times; and that the run contains its start."""
+    narrower interval; and why f is negative at some times."""
     notes = [_model_of_run(scene, result)]
     negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0) & in_motion(result.columns)))
     if negative:
@@ -830,8 +837,6 @@ def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
             f"{counted(negative, 'outputs')}, where the rolling resistance of this surface exceeds the friction of "
             "sliding; the power loss includes both surfaces."
         )
-    if result.start_in_words:
-        notes.append(result.start_in_words)
     return notes
 
 

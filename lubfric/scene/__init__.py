@@ -50,4 +50,4 @@ from .scene import (
 )
 from .sections import ROUGH_SECTIONS, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, reduced_radius, short_keys, speeds_of_range
-from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, read_history
+from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, moment_in_words, read_history

@@ -95,8 +95,7 @@ class Transient:
 
     def moment_in_words(self, time: float) -> str:
         """Return a ``time`` [s] as text, with its angle where that is known: "30 ms (180°)"."""
-        angle = "" if self.rotational_speed is None else f" ({self.angle_at(time):.4g}°)"
-        return f"{worded(time, 's')}{angle}"
+        return moment_in_words(time, self.angle_at(time))
 
     def __post_init__(self) -> None:
         validate.python_fields(self, "transient")
@@ -114,6 +113,11 @@ class Transient:
                 given = history(f"transient.{name}", given, unit, rotational_speed=self.rotational_speed)
                 given = checked_history(f"transient.{name}", given, unit, self.duration, positive=unit != "m/s")
                 object.__setattr__(self, name, given)
+
+
+def moment_in_words(time: float, angle: float) -> str:
+    """Return a ``time`` [s] as text, with an ``angle`` of rotation [°] (NaN: not known): "30 ms (180°)"."""
+    return worded(time, "s") if math.isnan(angle) else f"{worded(time, 's')} ({angle:.4g}°)"
 
 
 def history(

@@ -169,18 +169,25 @@ class TransientResult(Renamed, Shown):
 
     @property
     def start_in_words(self) -> str:
-        """That the run contains its start, as a sentence, where its end has the speeds and the load of its first output and
-        another film; else ""."""
+        """Whether the run is periodic, or contains its start, as a sentence, where its end has the speeds and the load of its
+        first output, and other ones in between; else ""."""
         if self.time.size < 2:
             return ""
-        for name in ("entrainment_speed", "sliding_speed", "load"):
-            values = self.columns[name]
-            if abs(values[-1] - values[0]) > SAME_CONDITIONS * np.max(np.abs(values), initial=0.0):
-                return ""
+        conditions = [self.columns[name] for name in ("entrainment_speed", "sliding_speed", "load")]
+        same = [SAME_CONDITIONS * np.max(np.abs(values), initial=0.0) for values in conditions]
+        if any(abs(values[-1] - values[0]) > most for values, most in zip(conditions, same)):
+            return ""
         ratio = self.contact_load / self.load
         film = self.central_film
-        if abs(ratio[-1] - ratio[0]) < OTHER_RATIO and abs(film[-1] / film[0] - 1.0) < OTHER_FILM:
-            return ""
+        by_ratio = abs(ratio[-1] - ratio[0])
+        by_film = abs(film[-1] / film[0] - 1.0)
+        if by_ratio < OTHER_RATIO and by_film < OTHER_FILM:
+            if all(np.ptp(values) <= most for values, most in zip(conditions, same)):
+                return ""
+            return (
+                "The run is periodic: its end has the speeds and the load of its first output, an asperity load ratio that "
+                f"differs by {by_ratio:.1g}, and a central separation that differs by {100 * by_film:.1g} %."
+            )
         return (
             "The run is not periodic: its end has the speeds and the load of its first output, but an asperity load ratio of "
             f"{ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of {worded(float(film[-1]), 'm')} instead of "
