@@ -49,6 +49,10 @@ BEYOND = 1.03
 # less narrows an error that is not measured.
 EXTRAPOLATED_ERROR = 0.05
 
+# The same of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A choice: at 1 the
+# contact would end at a solved speed, and the interpolation overshoots between the others.
+MIDDLE_ERROR = 0.5
+
 # Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
 # longer way rests on the power law of the film alone. A convention.
 WIDEST_BRACKET = 2.0
@@ -285,7 +289,7 @@ class Interpolant:
         s = self.samples
         (low, high) = self.bracket
         far = float(_ramp(np.log(high / low), WIDEST_BRACKET, FAR_SPEEDS))
-        part = far + (1.0 - far) * (EXTRAPOLATED_ERROR if self._is_lift_off_extrapolated else 1.0)
+        part = far + (1.0 - far) * (EXTRAPOLATED_ERROR if self._is_lift_off_extrapolated else MIDDLE_ERROR)
         least = min(NEAR_CONTACT * low, self.lift_off)
         most = high * (1.0 - BELOW_SEPARATED)
         extrapolated = (self.lift_off * (end / self.lift_off) ** part for end in (low, high))
