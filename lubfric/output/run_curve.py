@@ -715,7 +715,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     ]
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
-        place, worst = max(noted, key=lambda p: p[1].sampling)
+        place, worst = max(noted, key=lambda p: -1.0 if p[1].is_near_zero else p[1].sampling)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
         lines.append(f"uncertainty of f {at_value(place, unit, plural)}{more}: {'; '.join(worst.notes)}")

@@ -175,7 +175,7 @@ def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]
 def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
     """Yield a note if the sampling error of f is above its tolerance, both at 95 %. A single point has it among the
     notes of its ``uncertainty``; a table has it among the assumptions that do not hold, as the numerical error."""
-    if uncertainty.sampling > SAMPLING_ERROR_MISSED * uncertainty.tolerance:
+    if not uncertainty.is_near_zero and uncertainty.sampling > SAMPLING_ERROR_MISSED * uncertainty.tolerance:
         times = uncertainty.area_needed
         at_95 = student(uncertainty.freedom)
         yield Violation(

@@ -101,11 +101,20 @@ def test_blocks_tell_the_error_of_the_mean_with_and_without_the_control():
 
 
 @pytest.mark.parametrize(
-    "correction, sampling, limit",
-    [(0.15, 0.3, 5), (-0.15, 0.3, 5), (0.03, 0.02, 2), (0.03, 0.04, None), (0.009, 0.001, None), (0.06, math.nan, 5)],
+    "correction, sampling, f, limit",
+    [
+        (0.15, 0.3, 0.05, 5),
+        (-0.15, 0.3, 0.05, 5),
+        (0.03, 0.02, 0.05, 2),
+        (0.03, 0.04, 0.05, None),
+        (0.009, 0.001, 0.05, None),
+        (0.06, math.nan, 0.05, 5),
+        (0.47, 228.7, -8e-6, None),
+    ],
 )
-def test_a_correction_of_f_above_its_sampling_error_or_five_percent_is_a_note(correction, sampling, limit):
-    notes = list(violations_by_correction(correction, sampling))
+def test_a_correction_of_f_above_its_sampling_error_or_five_percent_is_a_note(correction, sampling, f, limit):
+    """Not of an f near 0, whose sampling error is far larger than it."""
+    notes = list(violations_by_correction(correction, sampling, f))
     assert len(notes) == (limit is not None)
     for note in notes:
         assert note.is_note and f"is {100 * abs(correction):g} %, above {limit} %" in note.text

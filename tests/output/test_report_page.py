@@ -13,9 +13,10 @@ from pictures import put_back
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
+import lubfric
 from lubfric.models.shared import checks
 from lubfric.output import main
-from lubfric.output.missed_tolerances import MissedTolerance
+from lubfric.output.missed_tolerances import MissedTolerance, missed_tolerances
 from lubfric.output.report import shortfalls
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -248,3 +249,15 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     alone = MissedTolerance(error="e", tolerance="k", points=(0,), worst=0, value=0.0104, limit=0.01)
     assert shortfalls([alone], 1, 1, place)[0] == "The e is 1.04 %, above 1 % (k)."
     assert shortfalls([alone], 1, 2, place)[0] == "At U = 0 m/s the e is 1.04 %, above 1 % (k)."
+
+
+def test_no_relative_error_of_an_f_near_zero_misses_a_tolerance():
+    """As at a slide-roll ratio of 0, where f is the small remainder of what its sample adds."""
+    scene = lubfric.load_scene("paper")
+    columns = {
+        "coefficient": np.array([-8e-6, 0.05]),
+        "sampling_error": np.array([93.0, 0.05]),
+        "sampling_freedom": np.array([10.0, 10.0]),
+    }
+    (missed,) = missed_tolerances(columns, [scene, scene])
+    assert missed.points == (1,) and missed.value == pytest.approx(2.228 * 0.05, rel=1e-3)

@@ -31,6 +31,7 @@ from ..shared import (
     film_lubricant,
     half_width_of_error,
     heat_error_in_words,
+    is_near_zero,
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
@@ -183,7 +184,9 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         violations=(
             *_violations(prepared, numbers, results, heat),
             *violations_by_correction(
-                levels.by_summits, half_width_of_error(sampling_error.value, sampling_error.freedom)
+                levels.by_summits,
+                half_width_of_error(sampling_error.value, sampling_error.freedom),
+                numbers["coefficient"],
             ),
         ),
         recommendation=_recommendation(prepared, levels),
@@ -427,7 +430,11 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
         return _why_no_sampling_error(prepared, levels), BIASED
     if error.value <= SAMPLING_ERROR_MISSED * tolerance:
         return ()
-    (stated, target) = percent_beside(*(half_width_of_error(each, error.freedom) for each in (error.value, tolerance)))
+    half_widths = [half_width_of_error(each, error.freedom) for each in (error.value, tolerance)]
+    f = levels.numbers["coefficient"]
+    if is_near_zero(f, half_widths[0]):
+        return (f"{SAMPLING_ERROR} is {abs(f) * half_widths[0]:.2g} in f itself, which is near 0",)
+    (stated, target) = percent_beside(*half_widths)
     return (f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})",)
 
 
@@ -466,9 +473,11 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     return text
 
 
-def violations_by_correction(by_summits: float, of_sample: float) -> Iterator[Violation]:
-    """Yield the note that f is corrected ``by_summits`` (relative to f) by more than `LARGE_CORRECTION`, or than the error
-    ``of_sample`` at 95 %, if that is `SMALL_CORRECTION` at least."""
+def violations_by_correction(by_summits: float, of_sample: float, f: float) -> Iterator[Violation]:
+    """Yield the note that ``f`` is corrected ``by_summits`` (relative to f) by more than `LARGE_CORRECTION`, or than the error
+    ``of_sample`` at 95 %, if that is `SMALL_CORRECTION` at least. Where f is near 0, a correction within that error has none."""
+    if is_near_zero(f, of_sample) and abs(by_summits) <= of_sample:
+        return
     limit = min(LARGE_CORRECTION, max(of_sample, SMALL_CORRECTION)) if math.isfinite(of_sample) else LARGE_CORRECTION
     if abs(by_summits) > limit:
         yield Violation(

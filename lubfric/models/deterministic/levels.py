@@ -36,6 +36,8 @@ from ..shared import (
     StandardError,
     add_errors,
     block_error,
+    half_width_of_error,
+    is_near_zero,
     strips_for_error,
     student,
     with_divided_sliding,
@@ -427,13 +429,15 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     numbers = with_rest_rolling(numbers, load)
     between = friction.plain.value * math.sqrt(len(pairs))
     by_summits = friction.correction / friction.value
+    of_sample = half_width_of_error(friction.error.value, friction.error.freedom)
+    is_relative = not is_near_zero(friction.value, max(of_sample, abs(by_summits)))
     return TwoLevelEstimate(
         control_strips=0,
         numbers=numbers,
         error_of_f=friction.error,
         difference_error_of_f=StandardError(0.0, 1),
         between=between,
-        note=CORRECTED_BY_SUMMITS.format(100 * by_summits) if by_summits else "",
+        note=CORRECTED_BY_SUMMITS.format(100 * by_summits) if by_summits and is_relative else "",
         by_summits=by_summits,
     )
 
