@@ -23,9 +23,7 @@ from ..studies import (
 from ..units import interval_in_words, with_interval
 from .report import INTERVAL_OF_F, table
 
-# Operating conditions up to which each has a sentence, and combinations that a sentence names. Choices: more makes a table of a
-# text.
-MOST_SENTENCES = 6
+# Combinations that a sentence names. A choice: more makes a table of a text.
 MOST_NAMED = 3
 
 # Rows of the table of operating conditions, at most. A choice: more is read from study.csv.
@@ -70,25 +68,20 @@ def has_designs(result: StudyResult) -> bool:
 
 
 def best_lines(result: StudyResult) -> list[str]:
-    """Return in sentences which combination of design has the lowest f at each operating condition, and which has the lowest mean:
-    of f, or of operating points of the power loss; none where no designs are compared."""
+    """Return in sentences which combinations of design have the lowest f at the operating conditions, of which the report has a table,
+    and which has the lowest mean: of f, or of operating points of the power loss; none where no designs are compared."""
     if not has_designs(result):
         return []
     best_ones = best(result)
     lines = []
-    if best_ones and not operating_keys(result.plan):
+    if len(best_ones) == 1:
         (one,) = best_ones
+        place = f"At {condition_in_words(one.condition)}, f" if operating_keys(result.plan) else "f"
         lines.append(
-            f"f is lowest with {values_in_words(one.design)} (point {one.row}): {_number(one, '-')}. {_comparison(one)}"
+            f"{place} is lowest with {values_in_words(one.design)} (point {one.row}): {_number(one, '-')}. {_comparison(one)}"
         )
     elif best_ones:
         lines.append(_summary(best_ones))
-    if operating_keys(result.plan) and len(best_ones) <= MOST_SENTENCES:
-        lines += [
-            f"At {condition_in_words(one.condition)}, f is lowest with {values_in_words(one.design)} (point {one.row}): "
-            f"{_number(one, '-')}. {_comparison(one)}"
-            for one in best_ones
-        ]
     quantity = "power_loss" if result.paired else "coefficient"
     mean = best_mean(result, quantity)
     if mean is not None:
@@ -131,8 +124,7 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
     counts = Counter(values_in_words(one.design) for one in best_ones)
     conditions = f"{len(best_ones)} operating conditions"
     if len(counts) == 1:
-        of_all = f"all {conditions}" if len(best_ones) > 1 else "the operating condition"
-        text = f"One design has the lowest f at {of_all}: {next(iter(counts))}."
+        text = f"One design has the lowest f at all {conditions}: {next(iter(counts))}."
     else:
         words = "; ".join(f"with {name} at {count}" for name, count in counts.most_common(MOST_NAMED))
         more = "; ..." if len(counts) > MOST_NAMED else "."
@@ -146,10 +138,7 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
     clear = sum(not one.rivals for one in best_ones)
     distinct = f"At {clear} of them it is lower than with all other designs by more than the error of the difference"
     unclear = "At none of them can it be distinguished from all other designs"
-    if len(best_ones) == 1:
-        distinct = "It is lower there than with all other designs by more than the error of the difference"
-        unclear = "It cannot be distinguished there from all other designs"
-    return f"{text} {distinct if clear else unclear}."
+    return f"{text} {distinct if clear else unclear}. The table of the report has a row for each condition."
 
 
 def best_table(result: StudyResult) -> str:

@@ -652,10 +652,14 @@ def _list(lines: list[str], kind: str = "ul") -> str:
     return f"<{kind}>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</{kind}>"
 
 
+# Share of the variance below which the end of its interval is written as 0. A convention.
+LEAST_SHARE = 1e-3
+
+
 def answer_lines(result: StudyResult) -> list[str]:
-    """Return the answer of a study in sentences: the best design at the operating conditions, of operating points the means over the
-    cycle, the smallest and the largest f and power loss with intervals and places, and what the inputs do to f."""
-    rows = best_lines(result)
+    """Return the answer of a study in sentences: what the inputs do to f, the best design at the operating conditions, of operating
+    points the means over the cycle, and the smallest and the largest f and power loss with intervals and places."""
+    rows = [*_main_effects_line(result), *best_lines(result)]
     if result.paired:
         rows += _mean_lines(result)
     for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
@@ -673,7 +677,7 @@ def answer_lines(result: StudyResult) -> list[str]:
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
     by_alpha = _alpha_line(result)
-    return [*rows, *by_alpha, *_budget_line(result), *_main_effects_line(result)]
+    return [*rows, *by_alpha, *_budget_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:
@@ -681,10 +685,18 @@ def _main_effects_line(result: StudyResult) -> list[str]:
     effects = main_effects(result)
     if not effects:
         return []
-    trends = {-1: " (on average f falls with it)", 0: "", 1: " (on average f rises with it)"}
-    words = [f"{name_of(key)} {percent(effect.share)}{trends[effect.slope]}" for key, effect in effects.items()]
+    trends = {-1: ["on average f falls with it"], 0: [], 1: ["on average f rises with it"]}
+    words = []
+    for key, effect in effects.items():
+        low, high = (f"{100 * end:.2g}" if end >= LEAST_SHARE else "0" for end in effect.interval)
+        known = [f"{low} to {high} %"] if np.isfinite(effect.interval).all() and low != high else []
+        details = ", ".join([*known, *trends[effect.slope]])
+        words.append(f"{name_of(key)} {percent(effect.share)}" + (f" ({details})" if details else ""))
+    within = (
+        ", with its range within the errors of f at 95 %" if np.isfinite([*effects.values()][0].interval).all() else ""
+    )
     return [
-        f"Part of the variance of ln f that each input alone explains: {'; '.join(words)}. The remaining part comes "
+        f"Part of the variance of ln f that each input alone explains{within}: {'; '.join(words)}. The remaining part comes "
         "from combinations of inputs."
     ]
 

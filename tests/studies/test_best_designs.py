@@ -86,7 +86,8 @@ def test_a_cycle_is_compared_by_its_mean_power_loss_weighted_by_the_durations():
     assert result.best_mean("power_loss").design == {"surface.sq": SQ[1]}
     assert result.best_mean("power_loss").value == pytest.approx(10 * (0.1 * 0.09 + 0.9 * 0.05))
     assert [one.design["surface.sq"] for one in result.best()] == SQ[:2]
-    assert "At position on the path of contact 1 m, f is lowest" in " ".join(best_designs.best_lines(result))
+    assert "position on the path of contact 1 m" in best_designs.best_table(result)
+    assert "The table of the report has a row for each condition." in " ".join(best_designs.best_lines(result))
 
 
 def test_seeds_and_numerics_are_no_design():
@@ -231,18 +232,19 @@ def test_a_range_that_moves_one_design_alone_is_not_left_out():
     assert len(one.rivals) == 1
 
 
-def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhere():
+def test_the_answer_has_what_matters_most_and_then_the_best_design_and_says_where_one_wins_everywhere():
     f = F.copy()
     f[1, :, 0, :] = 0.01
-    lines = study_report.answer_lines(made(f, WIDTH))
+    (matters, *lines) = study_report.answer_lines(made(f, WIDTH))
+    assert matters.startswith("Part of the variance of ln f that each input alone explains")
     winner = "root mean square height Sq 100 nm, "
     assert lines[0].startswith(f"One design has the lowest f at all 6 operating conditions: {winner}")
     f[2, 1, 0, 0] = 0.005
-    lines = study_report.answer_lines(made(f, WIDTH))
+    (matters, *lines) = study_report.answer_lines(made(f, WIDTH))
     assert lines[0].startswith(f"Of 6 operating conditions f is lowest with {winner}") and " at 5; with " in lines[0]
     assert "At all of them the lowest f has material 100Cr6." in lines[0]
-    page = study_report.study_page(made(f, WIDTH), {}, lines).decode()
-    assert re.search(r'<p class="answer">Of 6 operating conditions', page)
+    page = study_report.study_page(made(f, WIDTH), {}, [matters, *lines]).decode()
+    assert re.search(r'<p class="answer">Part of the variance of ln f.*Of 6 operating conditions', page, re.DOTALL)
     assert "left out but for the difference" in page and "report.html has all" not in page
 
 

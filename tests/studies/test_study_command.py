@@ -123,6 +123,22 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     assert len(hertz) == 12
 
 
+@pytest.mark.parametrize("error, reached", [(0.0, False), (0.02, False), (1e3, True)])
+def test_shares_have_the_range_that_the_errors_of_f_leave(error, reached):
+    """None without errors. Of numbers that are errors alone, k values of an input in n points explain (k - 1)/(n - 1) on average."""
+    vary = {"bodies.load": [1.0, 2.0, 4.0, 8.0], "lubricant.viscosity": [0.1, 0.2, 0.4]}
+    result = numbered(vary, lambda scene: scene.bodies.load**-1.0 * scene.lubricant.viscosity**0.5)
+    errors = {"sampling_error": np.full(result.status.shape, error)}
+    effects = studies.main_effects(replace(result, columns=result.columns | errors))
+    for effect, by_chance in zip(effects.values(), (3 / 11, 2 / 11)):
+        low, high = effect.interval
+        assert low <= effect.share <= high and (low < high) == (error > 0)
+        assert (low < by_chance < high) == reached
+    wide = replace(result, columns=result.columns | errors | {"model_error": np.full(result.status.shape, np.nan)})
+    assert np.isnan([effect.interval for effect in studies.main_effects(wide).values()]).all()
+    assert "with its range" not in "".join(study_report.answer_lines(wide))
+
+
 def test_inputs_that_vary_together_have_no_shares_of_their_own():
     pairs = [(load, load / 10) for load in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)]
     result = numbered({("bodies.load", "lubricant.viscosity"): pairs}, lambda scene: scene.bodies.load)
