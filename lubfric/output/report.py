@@ -80,6 +80,9 @@ TABLE_ROUNDING = 1e-8
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
 FULL_FILM_PART = 0.01
 
+# What the page has where there are no warnings.
+NO_WARNINGS = "No checked limit of the model is exceeded."
+
 # Loads that say what carries F_T.
 LOADS = ("contact_load", "film_load", "boundary_film_load", "saturated_film_load")
 
@@ -957,8 +960,12 @@ def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterabl
     warnings = [sentence(each.text) for each in known if not each.is_note]
     notes = [sentence(each.text_without_head) for each in known if each.is_note]
     notes += map(sentence, further_notes)
-    heading = "<h3>Notes</h3>" if notes else ""
-    return bullets(warnings, "No checked limit of the model is exceeded.", "warning") + heading + bullets(notes)
+    return bullets(warnings, NO_WARNINGS, "warning") + folded_notes(bullets(notes), len(notes))
+
+
+def folded_notes(notes: str, count: int) -> str:
+    """Return a list of ``count`` ``notes``, folded; "" where there are none."""
+    return f"<details><summary>Notes ({count})</summary>{notes}</details>" if count else ""
 
 
 def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:

@@ -63,8 +63,10 @@ from .page import framed
 from .report import (
     GAP_OF_TOUCHING,
     INTERVAL_OF_F,
+    NO_WARNINGS,
     effects_table,
     films_at_limit,
+    folded_notes,
     is_gap_of_touching,
     methods_to_quote,
     names_of_inputs,
@@ -197,12 +199,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             ),
             pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
             warnings=_counts_as_paragraph(result)
-            + (
-                _list([each.text for each in warnings], kind="ol")
-                if warnings
-                else "<p>No checked limit of the model is exceeded.</p>"
-            )
-            + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
+            + (_list([each.text for each in warnings], kind="ol") if warnings else f"<p>{NO_WARNINGS}</p>")
+            + folded_notes(_list(notes), len(notes)),
             best=best_table(result),
             about=about,
             table=_table(result, rows, warnings) + _details(result, rows) + _effects_table(result),

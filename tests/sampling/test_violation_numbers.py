@@ -13,6 +13,7 @@ from lubfric.models.shared import (
     Violation,
     gathered,
     gathered_in_table,
+    gathered_on_curve,
     percent_beside,
     violations_by_model_error,
 )
@@ -88,3 +89,19 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
         "At point 1: lambda ratio is 0.03, below 0.05. Why.",
         "At point 2: lambda ratio is 5, above 3. Why.",
     ]
+
+
+def test_violations_are_sorted_by_the_size_of_their_effect_on_f():
+    """Severe ones first, those of an unknown effect last, on a curve and in a table."""
+
+    def about(what, effect=math.nan, *, severe=False):
+        words = {"value": 2.0, "limit": 1.0, "unit": "", "consequence": "why", "recommendation": ""}
+        return Violation(what=what, effect=effect, severe=severe, **words)
+
+    rows = [
+        (about("no effect known"), about("small", 0.01)),
+        (about("large", 0.02), about("small", 0.3), about("b", severe=True)),
+    ]
+    order = ["b", "small", "large", "no effect known"]
+    assert [each.violation.what for each in gathered_on_curve(list(enumerate(rows)))] == order
+    assert [each.violation.what for each in gathered_in_table(rows)] == order

@@ -490,6 +490,7 @@ def violations_by_correction(by_summits: float, of_sample: float, f: float) -> I
             "the infinite surface; the sampling error is for the corrected f",
             recommendation="",
             is_note=True,
+            effect=abs(by_summits),
         )
 
 

@@ -253,6 +253,7 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
             unit="%",
             consequence=why,
             recommendation="omit lubricant.inlet_length for a fully flooded inlet",
+            effect=lost / friction_force,
         )
 
 
@@ -359,6 +360,7 @@ def violations_by_shear(
             f"a friction coefficient of {of_film:.2g}",
             recommendation=recommendation,
             severe=severe,
+            effect=share,
         )
     elif of_film > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
@@ -392,8 +394,9 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
                 limit=tolerance,
                 unit="",
                 consequence=f"the film is between {least:.2g} and {most:.2g} times as thick as the isothermal one; "
-                "neither factor was derived for such sliding",
+                "neither factor was derived for such sliding; the model-form error of f contains their difference",
                 recommendation="measure the film; set numerics.heat = 'off' to see f of the isothermal film",
+                is_note=True,
             )
     if heat.is_slow and heat.change > tolerance:
         yield Violation(
@@ -403,9 +406,10 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             limit=FAST_PECLET_NUMBER,
             unit="",
             consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too high, and f is "
-            f"too low by at most {100 * heat.change:.2g} %; where that is below numerics.tolerance ({100 * tolerance:.2g} %) there is "
-            "no warning",
+            f"too low by at most {100 * heat.change:.2g} %, half of which its model-form error contains",
             recommendation="set numerics.heat = 'off' to see the other bound of f",
+            is_note=heat.change <= scene.numerics.model_tolerance,
+            effect=heat.change,
         )
 
 
@@ -425,6 +429,7 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
             f"{100 * coefficient:.2g} % per K",
             recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); set numerics.heat = "
             "'off' to neglect heat without this warning",
+            effect=change,
         )
 
 
@@ -446,4 +451,5 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
             unit="%",
             consequence=why,
             recommendation=recommendation,
+            effect=error,
         )

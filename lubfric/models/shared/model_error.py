@@ -81,4 +81,5 @@ def violations_by_model_error(
         unit="%" if is_relative else "",
         consequence=LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL,
         recommendation=recommendation or READ_INTERVAL,
+        effect=error,
     )

@@ -85,6 +85,7 @@ class Violation(Renamed):
     recommendation : what to change
     severe : True: the coefficient has no meaning, and a `ValidityError` is raised unless accepted. False: a warning
     is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
+    effect : largest relative change of f that it may cause; NaN where that is not known
     """
 
     assumption: str = ""
@@ -96,6 +97,7 @@ class Violation(Renamed):
     recommendation: str
     severe: bool = False
     is_note: bool = False
+    effect: float = math.nan
     _RENAMED = {"remedy": "recommendation"}
 
     def __post_init__(self) -> None:
@@ -105,6 +107,7 @@ class Violation(Renamed):
             ("limit", float),
             ("severe", bool),
             ("is_note", bool),
+            ("effect", float),
         ):
             object.__setattr__(self, name, kind(getattr(self, name)))
 
@@ -212,12 +215,12 @@ def gathered_on_curve(
 ) -> tuple[GatheredTexts, ...]:
     """Return one text for each assumption that is violated anywhere: at how many points, from where to where, and the
     smallest and the largest value with their places; what it does and what to do: of the worst value, with the places
-    where that is the same, if not all.
+    where that is the same, if not all. Those that change f the most are the first.
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
     lines = []
-    for group in _groups(points):
+    for group in sorted(_groups(points), key=lambda pairs: _rank([violation for _, violation in pairs])):
         (_, worst) = max(group, key=lambda pair: _distance(pair[1]))
         alike = _alike(group, worst)
         places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
@@ -234,6 +237,13 @@ def _groups(points: Iterable[tuple[Place, Iterable[Violation]]]) -> list[list[tu
         for violation in violations:
             groups.setdefault(violation.kind, []).append((place, violation))
     return list(groups.values())
+
+
+def _rank(violations: Sequence[Violation]) -> tuple[bool, float]:
+    """Return by what ``violations`` of one kind are sorted: severe ones first, then by the size of their effect on f, where that is
+    known."""
+    effects = [violation.effect for violation in violations if math.isfinite(violation.effect)]
+    return not any(violation.severe for violation in violations), -max(effects, default=0.0)
 
 
 def _alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> tuple[list[Place], list[Place]]:
@@ -299,10 +309,11 @@ class GatheredTexts:
 def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts]:
     """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of
     a table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of this
-    value, with the points where they are the same, if not all. Points are named by their number, from 1."""
+    value, with the points where they are the same, if not all. Points are named by their number, from 1. Those that change f the most
+    are the first, then those of the most points."""
     lines = []
     groups = [dict(group) for group in _groups(enumerate(rows, 1))]
-    for group in sorted(groups, key=len, reverse=True):
+    for group in sorted(groups, key=lambda group: (*_rank([*group.values()]), -len(group))):
         (at_worst, worst) = _worst_in_table(group)
         alike = _alike(group.items(), worst)
         (place, advised) = (numbers_in_words(n, len(rows)) if len(n) < len(group) else "" for n in alike)
