@@ -53,6 +53,7 @@ from ..time import (
     check_run,
     estimated_run,
     expected_effects_of_run,
+    first_largest,
     may_move_roughness,
     periods,
     run_model_of,
@@ -525,7 +526,7 @@ def _chosen_times(scene: Scene) -> list[float]:
     evenly = times[:: max(1, len(times) // TABLE_SPEEDS)]
     fastest = max(times, key=lambda time: abs(moments[time].motion.entrainment_speed))
     heaviest = max(times, key=lambda time: moments[time].bodies.load)
-    hardest = max(times, key=lambda time: moments[time].bodies.mean_hertz_pressure)
+    hardest = times[first_largest([now.bodies.mean_hertz_pressure for now in moments.values()])]
     return sorted({*evenly, fastest, heaviest, hardest})
 
 

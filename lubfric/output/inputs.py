@@ -6,7 +6,7 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
 from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, sampled_times, source_of, typical
-from ..time import scene_at
+from ..time import first_largest, scene_at
 from ..units import worded
 
 # Keys that mean nothing where a history of this name is given.
@@ -118,7 +118,7 @@ def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:
     bodies = [scene_at(scene, time, side).bodies for time in times for side in ("before", "at")]
     peaks = [hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime) for b in bodies]
     largest = max(peaks)
-    return min(peaks), largest, times[peaks.index(largest) // 2]
+    return min(peaks), largest, times[first_largest(peaks) // 2]
 
 
 def _lubricant(scene: Scene) -> list[str]:

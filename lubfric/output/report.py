@@ -69,6 +69,10 @@ GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities
 FLOOR_ROUNDING = 1e-6
 # Rows of the table of a run in time, about. A choice, for a table that can be read.
 HISTORY_ROWS = 13
+# Quantities whose change over time decides of which outputs that table has rows. A choice: what a user puts into a run, and f.
+CHANGING = ("entrainment_speed", "sliding_speed", "load", "coefficient")
+# Part of the change of a run that is below it. A choice: above the differences of moments that repeat one another.
+SAME_CHANGE = 1e-3
 # Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
@@ -881,13 +885,29 @@ def _history_budget(result: TransientResult) -> str:
     return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
 
 
+def evenly_by_change(columns: Mapping[str, np.ndarray], count: int) -> list[int]:
+    """Return the indices of about so many outputs of a run, the first and the last among them, between which `CHANGING`
+    quantities change by about the same: moments that repeat another one are left out."""
+    steps = np.zeros(columns["time"].size - 1)
+    for name in CHANGING:
+        values = np.nan_to_num(columns[name])
+        steps += np.abs(np.diff(values)) / max(
+            float(np.ptp(values)), TABLE_ROUNDING * float(np.abs(values).max(initial=1.0))
+        )
+    change = np.append(0.0, np.cumsum(steps))
+    if not change[-1] > 0:
+        return [0, change.size - 1]
+    places = np.searchsorted(change, np.linspace(0.0, change[-1], count) * (1.0 - SAME_CHANGE))
+    return sorted({0, *places.tolist(), change.size - 1})
+
+
 def _history_table(result: TransientResult) -> str:
-    """Return the table of some outputs of a run in time, spread evenly, and of those with the largest f and power."""
+    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those with the largest f and power."""
     count = result.time.size
     if count < 2:
         return ""
     c = result.columns
-    chosen = {*np.linspace(0, count - 1, min(HISTORY_ROWS, count)).round().astype(int).tolist()}
+    chosen = {*evenly_by_change(c, min(HISTORY_ROWS, count))}
     chosen |= {_largest_friction(result)}
     if np.isfinite(c["power_loss"]).any():
         chosen |= {int(np.nanargmax(c["power_loss"]))}
@@ -923,7 +943,7 @@ def _history_table(result: TransientResult) -> str:
         time = f"{shown['time'][index]:.5g}"  # two outputs differ
         others = [_number(_rounded(shown[name], index)) for name in before if name != "time"]
         rows.append(_cells([time, *others, f, interval, *numbers, ratio]))
-    about = f"{len(rows)} of {counted(count, 'outputs')}, spread evenly, with the largest f and the largest power loss;"
+    about = f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with the largest f and the largest power loss;"
     films = (
         " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the part "
         "of the load that the film carries, so it may be thicker."
@@ -975,7 +995,7 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
     rows = []
     for label, text, key, note in inputs(scene, section):
         name = key.partition(".")[2]
-        source = "derived" if _is_short_form(section, given) else "default"
+        source = "derived" if _is_derived(scene, section, name, given) else "default"
         if name in shown:
             source = _given(name, shown.pop(name))
         source = BY_FIT if key in fitted else source
@@ -1015,9 +1035,18 @@ BY_FIT = "fitted"
 # Key of an oil by its name, from which other inputs follow.
 NAMED_OIL = "oil"
 
+# Key of the bodies by their material, from which other inputs follow.
+NAMED_MATERIAL = "material"
 
-def _is_short_form(section: str, given: dict[str, Any]) -> bool:
-    return any(name in given for name in (*short_keys(section), NAMED_OIL))
+
+def _is_derived(scene: Scene, section: str, name: str, given: dict[str, Any]) -> bool:
+    """Return whether a value that is not among the ``given`` keys of a section follows from one of these, and is not the default
+    of its key; a material or an oil with a name has values that may be alike."""
+    if not any(key in given for key in (*short_keys(section), NAMED_OIL)):
+        return False
+    used = getattr(scene, section)
+    is_default = getattr(used, name) == getattr(type(used), name, None)
+    return not is_default or any(key in given for key in (NAMED_MATERIAL, NAMED_OIL))
 
 
 def _given(name: str, value: Any) -> str:

@@ -651,7 +651,7 @@ def _list(lines: list[str], kind: str = "ul") -> str:
 
 
 # Share of the variance below which the end of its interval is written as 0. A convention.
-LEAST_SHARE = 1e-3
+LEAST_STATED_SHARE = 1e-3
 
 
 def answer_lines(result: StudyResult) -> list[str]:
@@ -686,7 +686,7 @@ def _main_effects_line(result: StudyResult) -> list[str]:
     trends = {-1: ["on average f falls with it"], 0: [], 1: ["on average f rises with it"]}
     words = []
     for key, effect in effects.items():
-        low, high = (f"{100 * end:.2g}" if end >= LEAST_SHARE else "0" for end in effect.interval)
+        low, high = (f"{100 * end:.2g}" if end >= LEAST_STATED_SHARE else "0" for end in effect.interval)
         known = [f"{low} to {high} %"] if np.isfinite(effect.interval).all() and low != high else []
         details = ", ".join([*known, *trends[effect.slope]])
         words.append(f"{name_of(key)} {percent(effect.share)}" + (f" ({details})" if details else ""))

@@ -35,7 +35,7 @@ ERROR_SEED = 0
 # Ends of the interval of a share, in percent of the draws. A convention: 95 %.
 ENDS_OF_INTERVAL = (2.5, 97.5)
 
-# Half width of an interval at 95 % over the standard deviation of a normal error.
+# Half width of an interval at 95 % over the standard deviation of a normal error: it follows from the normal distribution.
 HALF_WIDTH_OF_NORMAL = 1.96
 
 

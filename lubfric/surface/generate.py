@@ -21,6 +21,10 @@ LEAST_CELLS_OF_LENGTH = 2.0  # cells in one correlation length (1/e); a choice: 
 # Of the correlation length that the finite, zero-mean map can have; a choice: less refuses small maps.
 LENGTH_TOLERANCE = 0.10
 
+# Correlation lengths in a periodic map from which the expected length is within `LENGTH_TOLERANCE`: 10.2 and 5.1 at
+# 1/e on square maps, and some more.
+LENGTHS_IN_MAP = {"exponential": 11.0, "gaussian": 5.5}
+
 LARGEST_SEED = 2**128 - 1  # as many bits as the pool of numpy.random.SeedSequence; its definition
 NEGLIGIBLE_EXPONENT = 37.0  # exp(-37) is below the rounding of double precision, by definition
 SPECTRUM_ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero; chosen by it
@@ -131,16 +135,22 @@ def surface_generator(
     scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
     for axis, n, d, scale in zip("xy", shape, spacing, scales):
         name = f"correlation_length along {axis}"
-        message = f" is {scale:g} m at 1/e"
+        message = f" is {worded(scale, 'm')} at 1/e"
         if scale < LEAST_CELLS_OF_LENGTH * d:
             raise InputError(
-                f"{message}, {scale / d:.3g} cells", name, f"at least {LEAST_CELLS_OF_LENGTH:g} cells of {d:g} m"
+                f"{message}, {scale / d:.3g} cells",
+                name,
+                f"at least {LEAST_CELLS_OF_LENGTH:g} cells of {worded(d, 'm')}",
             )
         if n * d < 4 * scale:
-            allowed = "at most a quarter of it (generate a larger map and crop it)"
-            raise InputError(f"{message}, the map {n * d:g} m", name, allowed)
+            raise InputError(
+                f"{message}, the map {worded(n * d, 'm')}",
+                name,
+                "at most a quarter of it",
+                _longer_map(axis, n * d, LENGTHS_IN_MAP[acf] * scale),
+            )
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
-    expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
+    expected = _expected_lengths(spectrum, shape, spacing, lengths, level, LENGTHS_IN_MAP[acf])
     amplitude = np.sqrt(spectrum)
     source = f"generated, {acf} ACF"
     stated = [
@@ -252,9 +262,10 @@ def _expected_lengths(
     spacing: tuple[float, float],
     lengths: tuple[float, float],
     level: float,
+    lengths_in_map: float,
 ) -> list[float]:
     """Return the correlation lengths [m] that maps of this ``spectrum`` have on average. Raises `InputError` where they
-    are not near the requested ``lengths``."""
+    are not near the requested ``lengths``, which those with ``lengths_in_map`` are."""
     from scipy import fft
 
     acf = fft.irfft2(spectrum, shape)
@@ -263,14 +274,30 @@ def _expected_lengths(
         half = shape[axis] // 2 + 1
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
         if abs(length / lengths[axis] - 1) > LENGTH_TOLERANCE:
-            size = f"{shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m"
+            size = " x ".join(worded(n * d, "m") for n, d in zip(shape, spacing))
             message = (
-                f" = {lengths[axis]:g} m is not possible: a periodic map of {size} with this cutoff has {length:g} m"
+                f" = {worded(lengths[axis], 'm')} is not possible: a periodic map of {size} with this cutoff has "
+                f"{worded(float(length), 'm')}"
             )
-            allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
-            raise InputError(message, f"correlation_length along {'xy'[axis]}", allowed)
+            name = "xy"[axis]
+            needed = lengths_in_map * lengths[axis]
+            raise InputError(
+                message,
+                f"correlation_length along {name}",
+                f"within {LENGTH_TOLERANCE:.0%}",
+                _longer_map(name, shape[axis] * spacing[axis], needed),
+            )
         expected.append(length)
     return expected
+
+
+def _longer_map(axis: str, length: float, needed: float) -> str:
+    """Return as text how a map of this ``length`` [m] along an ``axis`` becomes as long as ``needed`` [m]."""
+    times = max(math.ceil(needed / length), 2)
+    return (
+        f"make the map at least {worded(needed, 'm')} long along {axis} (contact.shape times contact.spacing in a scene), or set "
+        f"surface.oversize = {times}, which uses the middle of a longer map"
+    )
 
 
 def _found_length(surface: Surface, axis: int, level: float) -> str:

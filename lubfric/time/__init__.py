@@ -5,6 +5,7 @@ from .effects import (
     EffectsOfMoment,
     effects_of_run,
     expected_effects_of_run,
+    first_largest,
     largest_over_time,
 )
 from .estimated import RunEstimate, periods

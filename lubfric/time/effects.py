@@ -26,6 +26,11 @@ from .scene_in_time import scene_at
 JUDGED_OUTPUTS = 200
 
 
+# Relative difference of two values that count as equal. A choice: above that of the halves of a symmetrical cycle, whose
+# moments are rounded.
+ALIKE_PEAKS = 1e-3
+
+
 @dataclass(frozen=True, kw_only=True)
 class EffectsOfMoment:
     """Effects that are not modelled, at one moment of a run.
@@ -109,9 +114,17 @@ def expected_effects_of_run(scene: Scene, sq: float, times: Sequence[float]) -> 
     for time in times:
         now = scene_at(scene, time)
         speed = abs(now.motion.entrainment_speed)
-        effects = expected_effects(now, sq, speed, includes_motion=may_move_roughness(scene))
+        effects = expected_effects(now, sq, speed, run=scene, includes_motion=may_move_roughness(scene))
         moments.append(EffectsOfMoment(time=time, peak_pressure=_peak_pressure(now), friction=1.0, effects=effects))
     return largest_over_time(moments)
+
+
+def first_largest(values: Sequence[float]) -> int:
+    """Return the index of the largest of ``values``, 0 or more; of several peaks that are as large, `ALIKE_PEAKS`, that of the first."""
+    is_at_peak = np.asarray(values) >= (1.0 - ALIKE_PEAKS) * max(values)
+    first = int(np.argmax(is_at_peak))
+    end = first + int(np.argmin(np.append(is_at_peak[first:], False)))
+    return first + int(np.argmax(values[first:end]))
 
 
 def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTime, ...]:
@@ -125,7 +138,8 @@ def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTim
     chosen: list[tuple[float, EffectOverTime]] = []
     for pairs in by_name.values():
         known = [pair for pair in pairs if math.isfinite(pair[1].largest_change)]
-        moment, effect = max(known, key=_rank) if known else max(pairs, key=lambda pair: pair[0].peak_pressure)
+        at_pressure = first_largest([moment.peak_pressure for moment, _ in pairs])
+        moment, effect = max(known, key=_rank) if known else pairs[at_pressure]
         change = effect.largest_change * moment.friction if known else 0.0
         unknown = len(pairs) - len(known)
         chosen.append((change, EffectOverTime(effect=effect, time=moment.time, unknown=unknown)))

@@ -17,7 +17,7 @@ import lubfric
 from lubfric.models.shared import checks
 from lubfric.output import main
 from lubfric.output.missed_tolerances import MissedTolerance, missed_tolerances
-from lubfric.output.report import shortfalls
+from lubfric.output.report import evenly_by_change, inputs_as_given, shortfalls
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]
@@ -261,3 +261,28 @@ def test_no_relative_error_of_an_f_near_zero_misses_a_tolerance():
     }
     (missed,) = missed_tolerances(columns, [scene, scene])
     assert missed.points == (1,) and missed.value == pytest.approx(2.228 * 0.05, rel=1e-3)
+
+
+def test_a_documented_default_is_a_default_beside_short_forms(tmp_path):
+    """As the limit at ambient pressure and the conductivity of an oil by its grade, whose viscosity is derived."""
+    given = {"grade": "ISO VG 46", "viscosity_index": 95, "temperature": "40 °C", "limiting_stress_coefficient": 0.05}
+    scene = lubfric.load_scene("paper").with_(lubricant={**given, "viscosity": None})
+    rows = re.findall(r"<tr>(.*?)</tr>", inputs_as_given(scene, "lubricant", given))
+    sources = {
+        re.search(r">([^<]*)</td>", row)[1]: re.findall(r">([^<]*)</td>", row)[-1] for row in rows if "<td" in row
+    }
+    assert (
+        sources["limiting shear stress at ambient pressure"] == sources["thermal conductivity of the film"] == "default"
+    )
+    assert sources["viscosity at ambient pressure"] == "derived"
+
+
+def test_the_table_of_a_run_has_rows_where_it_changes():
+    """A run that rests for nine tenths of its outputs: no row repeats the others but the ends."""
+    columns = {name: np.zeros(200) for name in ("entrainment_speed", "sliding_speed", "load", "coefficient")}
+    columns["time"] = np.arange(200.0)
+    columns["load"][100:120] = np.arange(20)
+    columns["load"][120:] = 19.0
+    picked = evenly_by_change(columns, 11)
+    assert picked[0] == 0 and picked[-1] == 199 and all(100 < index <= 119 for index in picked[1:-1])
+    assert np.ptp(np.diff(columns["load"][picked[:-1]])) <= 1.0

@@ -1,6 +1,7 @@
 """Generated and prepared height maps: exact statistics, known fields, metamorphic relations, bad input."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -86,12 +87,27 @@ def test_cutoff_removes_short_waves_and_odd_shapes_work():
 @pytest.mark.parametrize(
     "changes, words",
     [({"correlation_length": 3e-6}, "cells"), ({"correlation_length": 200e-6}, "quarter")]
-    + [({"correlation_length": 80e-6}, "larger map"), ({"acf": "gausian"}, "did you mean 'gaussian'")]
+    + [({"correlation_length": 80e-6}, "longer map"), ({"acf": "gausian"}, "did you mean 'gaussian'")]
     + [({"cutoff": 1e-6}, "cutoff"), ({"cutoff": 100e-6}, "correlation_length")],
 )
 def test_generation_refuses(changes, words):
     with pytest.raises(InputError, match=words):
         generated(**changes)
+
+
+@pytest.mark.parametrize("acf", ["exponential", "gaussian"])
+@pytest.mark.parametrize("length", [60e-6, 200e-6])
+def test_a_map_as_long_as_recommended_is_made(acf, length):
+    """Both ways that the message names: the length, and the multiple of the length."""
+    given = {"sq": 1e-7, "correlation_length": length, "acf": acf, "seed": 1}
+    with pytest.raises(InputError, match=f"correlation_length along x.* {1e6 * length:g} µm") as refused:
+        generate_surface((128, 128), 2e-6, **given)
+    longest, times = re.search(
+        r"at least (\S+) .m long along x .* surface.oversize = (\d+)", str(refused.value)
+    ).groups()
+    metres = float(longest) * (1e-3 if "mm long" in str(refused.value) else 1e-6)
+    for cells in (math.ceil(metres / 2e-6), 128 * int(times)):
+        assert generate_surface((cells, cells), 2e-6, **given).shape == (cells, cells)
 
 
 # --- the data type ----------------------------------------------------------------------------

@@ -9,7 +9,15 @@ import lubfric
 from lubfric.models.shared import UnmodelledEffect, unmodelled_effects
 from lubfric.output import describe_scene
 from lubfric.scene import Table, Transient
-from lubfric.time import EffectsOfMoment, effects_of_run, largest_over_time, rolls, scene_at
+from lubfric.time import (
+    EffectsOfMoment,
+    effects_of_run,
+    expected_effects_of_run,
+    first_largest,
+    largest_over_time,
+    rolls,
+    scene_at,
+)
 
 # Slow under a heavy load, fast under a light one.
 LOAD = Table(times=(0.0, 1e-3, 2e-3), values=(2.0, 5.5, 2.0))
@@ -48,6 +56,19 @@ def test_an_effect_that_is_not_estimated_is_that_of_the_highest_pressure():
     assert (stated.time, stated.moment_in_words) == (2.0, "t = 2 s (highest pressure)")
     (known,) = largest_over_time([*moments, moment(4.0, 0.1, effect("cover", 0.3))])
     assert (known.time, known.moment_in_words) == (4.0, "t = 4 s (not estimated at 3 other moments)")
+
+
+@pytest.mark.parametrize(
+    "values, index", [([1, 3, 5, 4, 5.001, 1], 2), ([1, 5, 5.001, 4, 5.002], 2), ([1, 2, 3], 2), ([7], 0)]
+)
+def test_the_largest_of_a_symmetrical_cycle_is_that_of_its_first_half(values, index):
+    assert first_largest(values) == index
+
+
+def test_an_additive_is_an_effect_of_a_run_only_where_the_boundary_friction_has_no_range():
+    ranged = RUN.with_(bodies={"boundary_friction_coefficient": [0.08, 0.1]})
+    named = [expected_effects_of_run(scene, 1e-7, [0.0, 1e-3]) for scene in (RUN, ranged)]
+    assert ["additive" in " ".join(each.effect.what for each in effects) for effects in named] == [True, False]
 
 
 def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():

@@ -233,11 +233,11 @@ def _change_at_end_of_alpha(changes: dict[str, float], end: str) -> str:
 
 
 def expected_effects(
-    scene: Scene, sq: float, speed: float, *, includes_motion: bool = True
+    scene: Scene, sq: float, speed: float, *, run: Scene | None = None, includes_motion: bool = True
 ) -> tuple[ExpectedEffect, ...]:
     """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
-    first. ``includes_motion``: as in `unmodelled_effects`."""
+    first. ``run``, ``includes_motion``: as in `unmodelled_effects`."""
     of_boundary, f = _parts(scene, sq, speed)
     of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
     share = of_boundary / of_rubbing if of_rubbing else 0.0
@@ -247,9 +247,8 @@ def expected_effects(
         of_load = share**power
         for more in SHEARS if of_rubbing and speed else (1.0,):
             friction_parts = of_rubbing * of_load, of_rubbing * of_load + more * shear * (1.0 - of_load)
-            effects = _all_effects(
-                scene, sq, speed, friction_parts if friction_parts[1] > 0 else None, includes_motion=includes_motion
-            )
+            known_parts = friction_parts if friction_parts[1] > 0 else None
+            effects = _all_effects(scene, sq, speed, known_parts, run=run, includes_motion=includes_motion)
             for effect in effects:
                 known = ranges.get(effect.what, _at_one_result(effect))
                 low = float(np.fmin(known.low, effect.change))
