@@ -109,7 +109,7 @@ def _estimate_of_point(scene: Scene, sample: Sample, speed: float, estimates: li
         strips=line.strips,
         length=line.length,
         slow_strips=max((estimates[k].strips for k in with_slow_strips if k in solved), default=0),
-        seconds=sum(estimates[k].seconds for k in solved),
+        seconds=sum(estimates[k].seconds for k in solved) + estimates[answering].ends_seconds,
         fine_fields_seconds=estimates[answering].fine_fields_seconds,
         shared=tuple(part for k in solved for part in estimates[k].shared),
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),

@@ -37,6 +37,7 @@ class WorkEstimate:
     has_answer : whether the model is expected to have an answer of its own (`Model.why_unable`)
     waits_for_next : whether "auto" spends them only where the next model is not solved (`SampleSolution.may_suffice`)
     shared : the parts of these seconds that other points are spared
+    ends_seconds : processor time [s] of the ends of the input ranges, beside ``seconds``, where this model answers
     fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
@@ -53,6 +54,7 @@ class WorkEstimate:
     has_answer: bool = True
     waits_for_next: bool = False
     shared: tuple[SharedWork, ...] = ()
+    ends_seconds: float = 0.0
     fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
     longest_strip_seconds: float = 0.0

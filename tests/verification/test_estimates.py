@@ -125,6 +125,19 @@ def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact(
         assert result.contact_load == 0 and meter.spent < 0.1 and of_scene(scene, [speed]) < 0.1
 
 
+def test_the_ends_of_input_ranges_are_estimated_as_films_that_are_solved():
+    """One film without ranges, and with two of them also four ends, what they begin with, and what they are compared with."""
+    scenes = [PAPER, PAPER.with_(lubricant={"eyring_stress": "mineral", "limiting_stress_coefficient": "mineral"})]
+    works = []
+    for scene in scenes:
+        prepared = lubfric.prepare(scene)
+        with limited_work(math.inf) as meter:
+            lubfric.friction(prepared, 1.0)
+        works.append(meter.spent)
+    (without, with_ends) = (of_scene(scene, [1.0]) for scene in scenes)
+    assert with_ends / without == pytest.approx(works[1] / works[0], rel=0.4) and works[1] > 4 * works[0]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "keys", [{"lubricant": {"inlet_film": 120e-9}}, {"bodies": {"e_prime": 5e9}}], ids=["starved", "soft"]

@@ -9,7 +9,7 @@ import math
 from ...film import LineContact, flooded_inlet, smallest_film
 from ...oil import shear_stress
 from ...samples import PIECE_LENGTH, Cells, Sample
-from ...scene import Scene, has_moving_roughness
+from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness
 from ...surface import Surface
 from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, is_smooth_over_cells
 from ..work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
@@ -48,6 +48,10 @@ SOLVES_ON_MORE = 5
 
 # Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
 SOLVES_OF_REFERENCE = 7
+
+# Films and contacts of the balance at an end of the range of an input, which starts from that at the input itself [-]. Measured in
+# the paper's contact: 1 to 2.
+SOLVES_AT_END = 2
 
 # Sizes of cells on which a piece is solved, at least. It follows from `cell_effect`: one change of f needs two.
 FEWEST_CELLS = 2
@@ -136,18 +140,28 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if not sample.represents_more:
         if asperities != NONE_TOUCHES:
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
-        return WorkEstimate(strips=1, seconds=seconds, expected_model_error=error_of_model, asperities=asperities)
+        return WorkEstimate(
+            strips=1,
+            seconds=seconds,
+            ends_seconds=_ends(scene) * seconds,
+            expected_model_error=error_of_model,
+            asperities=asperities,
+        )
     error = expected_sampling_error(scene, sample, sq, film, speed)
     target = scene.numerics.sampling_tolerance
     count = math.ceil(sample.first_strips * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available_strips)
     shared: tuple[SharedWork, ...] = ()
+    one_end = FILM_SECONDS * _times_by_heat(scene)
     if asperities != NONE_TOUCHES:
         of_strips, shared = _work_of_strips(scene, sample, surface, film, count)
         seconds += of_strips
+        one_film = BALANCED_FILM * _times_by_heat(scene)
+        one_end = SOLVES_AT_END * (one_film + _strip_seconds(scene, sample, surface, film) * sample.first_strips)
     return WorkEstimate(
         strips=count,
         seconds=seconds,
+        ends_seconds=_ends(scene) * one_end,
         shared=shared,
         length=sample.line_length(count),
         expected_sampling_error=error,
@@ -167,6 +181,13 @@ def _asperities(film: float, summit: float) -> str:
 def _times_by_heat(scene: Scene) -> float:
     """Return the factor on the time of a film by its heat."""
     return HEAT_TIME_RATIO if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
+
+
+def _ends(scene: Scene) -> int:
+    """Return how many points the ends of the input ranges of ``scene`` take, which the answer solves on its first strips: f at each
+    end, and at the inputs themselves to begin with and to compare with."""
+    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
+    return ends + 2 if ends else 0
 
 
 def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
@@ -202,17 +223,14 @@ def _work_of_strips(
     (lx, ly) = sample.correlation_lengths
     cells = sample.cells
     (fx, fy) = cells.coarsening
-    (_, dy) = cells.spacing
     shared: tuple[SharedWork, ...] = ()
     one_film = BALANCED_FILM * _times_by_heat(scene)
-    touched = 1 - min(film / expected_gap(film, sq), 1.0)
     is_smooth = is_smooth_over_cells(surface.heights)
-    by_flattening = TIMES_BY_FLATTENING if is_smooth else TIMES_BY_FLATTENING_IF_ROUGH
-    times = 1 + by_flattening * touched * flattening(scene, sq)
+    times = _times_by_flattening(scene, surface, film)
     on_shorter = _times_by_shorter_cells(
         sample, film / expected_gap(film, sq), flattened=flattening(scene, sq), is_smooth=is_smooth
     )
-    strip = times * CELL_SECONDS * cells.columns * sample.strip_length / dy
+    strip = _strip_seconds(scene, sample, surface, film)
     solved = sample.first_strips
     work = SOLVES * (one_film + strip * solved)
     (first_growth, later_growth) = SAMPLE_GROWTH
@@ -238,6 +256,20 @@ def _work_of_strips(
         shared = (*shared, SharedWork(what=name, seconds=there, is_of_surface_alone=False))
         pieces_seconds *= OWN_PIECES
     return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), shared
+
+
+def _times_by_flattening(scene: Scene, surface: Surface, film: float) -> float:
+    """Return the factor on the time of strips and pieces by how far the bodies flatten (`TIMES_BY_FLATTENING`)."""
+    touched = 1 - min(film / expected_gap(film, surface.sq), 1.0)
+    rate = TIMES_BY_FLATTENING if is_smooth_over_cells(surface.heights) else TIMES_BY_FLATTENING_IF_ROUGH
+    return 1 + rate * touched * flattening(scene, surface.sq)
+
+
+def _strip_seconds(scene: Scene, sample: Sample, surface: Surface, film: float) -> float:
+    """Return the processor time [s] of one strip each time that it is pressed together."""
+    cells = sample.cells
+    times = _times_by_flattening(scene, surface, film)
+    return times * CELL_SECONDS * cells.columns * sample.strip_length / cells.spacing[1]
 
 
 def _times_by_shorter_cells(sample: Sample, share: float, *, flattened: float, is_smooth: bool) -> float:

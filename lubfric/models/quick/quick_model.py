@@ -338,6 +338,7 @@ class QuickModel(Model):
         alone = replace(
             alone,
             has_answer=is_shared or solves_strips,
+            ends_seconds=0.0 if solves_strips else alone.ends_seconds,
             waits_for_next=scene.numerics.model_tolerance < LEAST_TOLERANCE,
         )
         if has_moving_roughness(scene):
