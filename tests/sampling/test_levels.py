@@ -118,11 +118,16 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
             assert times == 2 or length["length"] < 42
             return shorter.Piece(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
 
+        def solver(*_, on=on):
+            return lambda coarsening, start: on(0.45 * coarsening[0])
+
         monkeypatch.setattr(levels, "solve_pair", lambda *_, **__: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)
+        monkeypatch.setattr(shorter, "_solver_of_short_piece", solver)
         result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         truth = on(0.45).result.coefficient
         assert bool(result.shortest) == (order < 2)
+        assert (len(result.shortest) > 4) == (order < 2)  # the short piece goes on to shorter cells where f needs them
         assert abs(result.numbers["coefficient"] / truth - 1) <= 1.1 * result.numerical <= 1.1 * most
     spent = sum(strip.work for piece in result.pieces for strip in piece) + sum(p.resolved.work for p in result.pairs)
     monkeypatch.setattr(shorter, "FINER_WORK", 1.0)

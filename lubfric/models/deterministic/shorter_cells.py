@@ -154,6 +154,12 @@ class Piece(tuple[StripSolution, ...]):
         return self[2], self[-1]
 
     @property
+    def last_change(self) -> float:
+        """Relative change of f by the last halving of the cells, without its sign."""
+        (longer, shorter) = (strip.result.coefficient for strip in self.last_two)
+        return abs(1 - longer / shorter)
+
+    @property
     def change(self) -> float:
         """Relative change of f from the cells of the strips to the shortest."""
         return self.on_shortest_cells.result.coefficient / self.on_cells_of_strips.result.coefficient - 1
@@ -254,14 +260,72 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             has_unsolved=not has_too_many,
             has_too_many=has_too_many,
         )
-    coarse, fine = (strip.result for strip in shortest.last_two)
-    further = abs(1 - coarse.coefficient / fine.coefficient)
-    of_mean = math.sqrt(max(changes_of(shortest.last_two)[0] ** 2 - further**2, 0.0))  # scatter of it over places
-    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(shortest.on_shortest_cells))
-    error = math.hypot(
-        max(error_by_cells((change, further), max(halvings - 2, 1)), ERROR_OF_SHORT_PIECE * further, floor), of_mean
+    error = _error_of_short_piece(shortest, (change, shortest.last_change), max(halvings - 2, 1))
+    of_its_length = _error_of_its_length(shortest)
+    ladder = _continued(
+        shortest,
+        _coarsening_of(sample, shortest.on_shortest_cells),
+        shorten=_halved,
+        solve=_solver_of_short_piece(prepared, speed),
+        error=error,
+        tolerance=max(tolerance, of_its_length),  # which shorter cells do not reduce
+        spent=spent + sum(strip.work for strip in shortest),
+        most=most - sum(strip.work for strip in shortest),
+        has_end=True,
     )
+    if len(ladder.strips) > len(shortest):
+        shortest = Piece(replace(one, slope=slope) for one in ladder.strips)
+        of_its_length = _error_of_its_length(shortest)
+        error = math.hypot(max(ladder.error, of_its_length), _scatter_of_last_change(shortest))
     return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
+
+
+def _error_of_short_piece(shortest: Piece, changes: Sequence[float], left: int) -> float:
+    """Return the relative error of f that the cells of the ``shortest`` piece leave, after ``changes`` of f from cells to cells;
+    ``left``: as of `error_by_cells`."""
+    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(shortest.on_shortest_cells))
+    by_cells = max(error_by_cells(changes, left), _error_of_its_length(shortest), floor)
+    return math.hypot(by_cells, _scatter_of_last_change(shortest))
+
+
+def _error_of_its_length(shortest: Piece) -> float:
+    """Return the part of the change of f on the ``shortest`` piece, relative, by which it may be off the mean over the surface."""
+    (before, after) = (strip.result.coefficient for strip in shortest.from_half_cells)
+    return ERROR_OF_SHORT_PIECE * abs(1 - before / after)
+
+
+def _scatter_of_last_change(piece: Piece) -> float:
+    """Return the relative standard error of the last change of f, by its scatter over the places of ``piece``."""
+    return math.sqrt(max(changes_of(piece.last_two)[0] ** 2 - piece.last_change**2, 0.0))
+
+
+def _coarsening_of(sample: Sample, strip: StripSolution) -> tuple[int, int]:
+    """Return the lengths of the cells of ``strip`` along x and y in native ones."""
+    (along, across) = (round(cell / native) for cell, native in zip(strip.result.spacing, sample.cells.native_spacing))
+    return along, across
+
+
+def _halved(coarsening: tuple[int, int]) -> tuple[int, int]:
+    """Return half the ``coarsening``, at least 1."""
+    return max(1, coarsening[0] // 2), max(1, coarsening[1] // 2)
+
+
+def _solver_of_short_piece(
+    prepared: Prepared, speed: float
+) -> Callable[[tuple[int, int], StripSolution], StripSolution]:
+    """Return the function that solves the first short piece at ``speed`` [m/s] on cells of a coarsening, from a solution on longer
+    ones. Raises `ConvergenceError` and `TooManyCellsError`."""
+
+    def solve(coarsening: tuple[int, int], start: StripSolution) -> StripSolution:
+        contact = contact_on_piece(prepared, prepared.sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
+        surface = map_of_contact(prepared, contact)
+        check_number_of_cells(surface, start.problem.line, (1, 1))
+        most = FACTORISATIONS_OF_LAST_LEVEL
+        return solve_strip(
+            prepared.scene, surface, speed, start=start, memo=prepared.memo, most=most, most_from_start=most
+        )
+
+    return solve
 
 
 def _pays(
@@ -278,8 +342,8 @@ def _pays(
     point has ``spent`` so much [s].
 
     They are solved within ``most`` of the work [s]: where they at most double the work of the point, or take no more than
-    `CHEAP_WORK`, or where they, or up to ``most_halvings`` in all, lead to an error within ``tolerance``, if the changes go on to fall as the last two did. ``left``: as of
-    `error_by_cells`, before them.
+    `CHEAP_WORK`, or where they, or up to ``most_halvings`` in all, lead to an error within ``tolerance``, if
+    the changes go on to fall as the last two did. ``left``: as of `error_by_cells`, before them.
     """
     if expected > most:
         return False
@@ -414,18 +478,11 @@ def _strip_on_shorter_cells(
     scene = prepared.scene
     sample = prepared.sample
 
-    def solve(coarsening: tuple[int, int], start: StripSolution) -> StripSolution:
-        contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
-        surface = map_of_contact(prepared, contact)
-        check_number_of_cells(surface, start.problem.line, (1, 1))
-        most = FACTORISATIONS_OF_LAST_LEVEL
-        return solve_strip(scene, surface, speed, start=start, memo=prepared.memo, most=most, most_from_start=most)
-
     ladder = _continued(
         pieces[0],
         sample.cells.coarsening,
-        shorten=lambda coarsening: (max(1, coarsening[0] // 2), max(1, coarsening[1] // 2)),
-        solve=solve,
+        shorten=_halved,
+        solve=_solver_of_short_piece(prepared, speed),
         error=error,
         tolerance=scene.numerics.tolerance,
         spent=spent,
@@ -544,7 +601,10 @@ def changed_by_pieces(
         return numbers
     rows = [[numbers_of_strip(prepared, strip.result) for strip in level] for level in zip(*pieces)]
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
-    new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
+    new = {
+        name: value * after[name] / before[name] if before[name] else value + after[name]
+        for name, value in numbers.items()
+    }
     load = prepared.scene.bodies.load
     new |= {name: numbers[name] for name in names_with("is_left_by_cells")}
     load_ratio = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
