@@ -41,6 +41,7 @@ from .roughness import Roughness, named
 from .scene import (
     Scene,
     check_resolved_gap,
+    has_generated_roughness,
     has_moving_roughness,
     inputs_not_given,
     moving_bodies,

@@ -333,6 +333,12 @@ def has_moving_roughness(scene: Scene) -> bool:
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 
+def has_generated_roughness(scene: Scene) -> bool:
+    """Return whether roughness is generated, by its correlation length."""
+    sections = (scene.surface, scene.counterface)
+    return any(section is not None and section.correlation_length is not None for section in sections)
+
+
 def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tuple[str, Any, str]]:
     """Yield each input of ``scene`` that the model of the resolved gap does not take: its key, its value and what is allowed."""
     for name, allowed, why in VALUES_OF_RESOLVED_GAP:

@@ -1,5 +1,6 @@
 """The effects that a report says are not modelled: those of the operating point, and those of other points alone."""
 
+import math
 import re
 
 from scene_text import BODIES_AND_OIL
@@ -26,7 +27,8 @@ def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_
     largest = {}
     for point in others:
         for effect in point.unmodelled_effects:
-            row = (abs(effect.change) * point.coefficient, point.speed, effect_in_words(effect))
+            size = 0.0 if math.isnan(effect.change) else abs(effect.change) * point.coefficient
+            row = (size, point.speed, effect_in_words(effect))
             largest[effect.what] = max(largest.get(effect.what, (0.0,)), row)
     assert largest
     rows = [re.sub(r"<[^>]+>", "|", row) for row in re.findall(r"<tr>(.*?)</tr>", section)[1:]]

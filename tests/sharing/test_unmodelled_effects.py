@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 from scene_text import paper_scene
 
@@ -165,3 +166,20 @@ def test_rolling_friction_that_a_given_inlet_omits_is_reported(length):
     stated = [entry.value for entry in given.validity if "beyond inlet_length" in entry.what]
     lost = 100 * (full.rolling_force - given.rolling_force) / (given.coefficient * scene.bodies.load)
     assert stated == ([pytest.approx(lost, rel=0.25)] if lost > 1 else []) and bool(stated) == (length < 0.1)
+
+
+@pytest.mark.parametrize("asperities, is_listed", [(0.0, False), (0.01, True), (0.06, True), (0.1195, False)])
+def test_the_correlation_length_of_generated_roughness_is_listed_in_mixed_lubrication(asperities, is_listed):
+    f = max(asperities, 0.02)
+    effects = unmodelled_effects(ROLLER, SQ, 1.0, (asperities, f))
+    listed = [effect for effect in effects if "correlation length" in effect.what]
+    assert len(listed) == is_listed
+    assert all(math.isnan(effect.change) and "surface.correlation_length" in effect.recommendation for effect in listed)
+
+
+def test_the_correlation_length_of_a_measured_map_is_no_effect(tmp_path):
+    surface = lubfric.generate_surface((96, 48), 4e-6, sq=1.5e-7, correlation_length=1.5e-5, seed=1)
+    np.save(tmp_path / "map.npy", surface.heights)
+    measured = ROLLER.with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 4e-6, "unit": "m"})
+    effects = unmodelled_effects(measured, SQ, 1.0, (0.06, 0.08))
+    assert effects and not any("correlation length" in effect.what for effect in effects)

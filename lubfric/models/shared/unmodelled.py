@@ -18,7 +18,7 @@ import numpy as np
 
 from ...film import flooded_inlet, hertz, smallest_film, starved_inlet
 from ...oil import carried_stress, shear_stress
-from ...scene import Scene, has_moving_roughness
+from ...scene import Scene, has_generated_roughness, has_moving_roughness
 from .checks_before import STRIP_NODES
 from .heat import TYPICAL
 from .violation import numbers_in_words
@@ -59,6 +59,10 @@ UPSTREAM = 4.0
 # Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder. It
 # follows from Reynolds' equation (Swift-Stieber).
 REYNOLDS_RUPTURE = 0.475
+
+# Friction of asperities over f_b between which the correlation length of the roughness counts [-]. A choice: the ends of mixed
+# lubrication, where f is that of the film or f_b whatever the length is.
+MIXED = (0.02, 0.98)
 
 # Part of f by asperities below which the film makes it. A choice: it selects a sentence.
 LEAST_ASPERITY_PART = 0.1
@@ -370,6 +374,19 @@ def _of_film(
                 recommendation="give a height map measured after running-in, or use lubfric.run_in",
             )
         )
+        (least, most) = MIXED
+        of_asperities = (friction_parts or before)[0]
+        if has_generated_roughness(scene) and least * of_rubbing < of_asperities < most * of_rubbing:
+            effects.append(
+                UnmodelledEffect(
+                    what="half or twice the correlation length of the roughness, which no drawing states",
+                    change=math.nan,
+                    recommendation=(
+                        "give a measured height map, or vary surface.correlation_length in a study; under heavy loads it may change f by "
+                        "more than its interval"
+                    ),
+                )
+            )
         if has_moving_roughness(scene) and not includes_motion and line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq:
             effects.append(
                 UnmodelledEffect(
