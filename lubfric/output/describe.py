@@ -32,6 +32,7 @@ from ..models.shared import (
     Violation,
     beforehand,
     effect_in_words,
+    expected_alpha_at,
     expected_effects,
     gathered,
     inlet_at,
@@ -260,7 +261,9 @@ def estimate_scene(
     else:
         effects = expected_effects(scene, scene_map.sq, scene_speed, includes_motion=may_move_roughness(scene))
         place = f"at {scene_speed:.4g} m/s"
-        rows = [effect_in_words(effect) for effect in effects]
+        of_alpha = expected_alpha_at(scene, scene_speed, effects)
+        rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.end_of_alpha)]
+        rows = [*filter(None, [of_alpha]), *rows]
     changes = [
         f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
         "ratios that the result may have; the report states the changes for the solved ratio.",

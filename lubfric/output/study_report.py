@@ -633,7 +633,8 @@ def _effects_table(result: StudyResult) -> str:
         return ""
     row = int(np.nanargmax(np.abs(columns_of_study(result)["coefficient"])))
     (effects,) = _effects_at(result, [row])
-    return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {row + 1}, of the largest f')}"
+    place = f"at point {row + 1}, of the largest f"
+    return f"<h3>Effects not modelled, {place}</h3>{effects_table(effects, place)}"
 
 
 def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int) -> str:

@@ -172,7 +172,8 @@ def stribeck(
     Parameters
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
-    speeds : entrainment speeds [m/s], (n,); None: the scene's own; "auto": at most 25, so that ``curve.at(speed)`` is
+    speeds : entrainment speeds [m/s], (n,); None: the scene's own ``motion.speeds``, without ``motion.entrainment_speed``, which
+        ``lubfric run`` adds as the operating point of its report; "auto": at most 25, so that ``curve.at(speed)`` is
         within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On strips of the surface that
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`

@@ -4,6 +4,7 @@ import pytest
 
 import lubfric
 from lubfric.models.deterministic import problem, shorter_cells
+from lubfric.models.shared import checks
 
 SCENE = lubfric.load_scene("paper").with_(
     lubricant={"limiting_stress_coefficient": "f_b"}, numerics={"sampling_tolerance": 0.1}
@@ -107,3 +108,36 @@ def test_an_axis_of_a_patch_with_many_cells_keeps_longer_ones():
     assert native.details["deterministic"].pressure.shape[1] == 244
     assert result.details["deterministic"].pressure.shape[1] <= 122
     assert abs(result.coefficient / native.coefficient - 1) < result.uncertainty.numerical < 0.03
+
+
+@pytest.mark.parametrize(
+    ("scene", "work", "more"),
+    [
+        (SCENE.with_(numerics={"model": "deterministic", "tolerance": 4e-3}), 1.0, 60.0),
+        (PATCH, 0.3, 3.0),
+    ],
+)
+def test_cells_that_the_work_ended_have_one_advice_that_helps(scene, work, more):
+    """A larger numerics.max_work lowers the numerical error. On the cells of the map the same work gives no lower one, or no answer."""
+    ended = lubfric.friction(scene.with_(numerics={"max_work": work}), SPEED)
+    (note,) = (each for each in ended.validity if each.what == "estimated numerical error of f")
+    assert note.recommendation == "set a larger numerics.max_work for shorter cells"
+    assert "numerics.grid" not in ended.uncertainty.text and ended.uncertainty.text.count("numerics.max_work") >= 1
+    helped = lubfric.friction(scene.with_(numerics={"max_work": more}), SPEED)
+    assert helped.uncertainty.numerical < 0.8 * ended.uncertainty.numerical
+    assert "did not converge" not in helped.uncertainty.text
+    on_given_cells = scene.with_(numerics={"max_work": work, "grid": "given"})
+    try:
+        assert lubfric.friction(on_given_cells, SPEED).uncertainty.numerical >= ended.uncertainty.numerical
+    except lubfric.errors.WorkLimitError:
+        pass
+
+
+@pytest.mark.parametrize("speed", [0.01, 0.2])
+def test_a_local_peak_is_between_asperity_contacts_only_where_asperities_carry_load(monkeypatch, speed):
+    monkeypatch.setattr(checks, "ROELANDS_LIMIT", 1e6)
+    monkeypatch.setattr(checks, "SPIKE", 0.5)
+    point = lubfric.friction(PATCH.with_(numerics={"tolerance": 0.05}), speed)
+    (peak,) = (each.consequence for each in point.validity if "local film pressure" in each.what)
+    assert ("between asperity contacts" in peak) == (point.contact_load > 0) == (speed < 0.1)
+    assert ("over the roughness" in peak) == (point.contact_load == 0)

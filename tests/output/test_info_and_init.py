@@ -342,7 +342,11 @@ def test_info_states_the_limits_of_the_model_that_auto_is_expected_to_take(monke
     for name in ("quick", "auto"):
         text = describe_scene(light.with_(numerics={"model": name}))
         stated[name] = text.partition("  validity\n")[2].partition("\n  estimate")[0]
-    assert stated["auto"] == stated["quick"] and "The quick model is not calibrated" in stated["auto"]
+    words = {name: " ".join(text.split()) for name, text in stated.items()}
+    (named, chosen) = (re.search(r"(note|warning): (.*?)\. (.*)", words[name]) for name in ("quick", "auto"))
+    assert named[2] == chosen[2] and (named[1], chosen[1]) == ("warning", "note")
+    assert "is not calibrated for such contacts" in named[3] and "the quick model is calibrated end there" in chosen[3]
+    assert "Recommendation" in named[3] and "Recommendation" not in chosen[3]
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
@@ -147,6 +148,22 @@ def test_a_given_pressure_viscosity_coefficient_is_exact():
         " ".join(effect.what for effect in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
     )
     assert "in place of the estimate" in estimated and "in place of the estimate" not in exact
+
+
+def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_and_what_to_do():
+    """The ends are those of both ends of measured oils together; nothing is said of a given coefficient."""
+    text = " ".join(describe_scene(ROLLER).split())
+    speed = ROLLER.motion.entrainment_speed
+    ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.end_of_alpha]
+    sides = [min(effect.low for effect in ends), max(effect.high for effect in ends)]
+    section = text.partition("effects not modelled")[2]
+    assert len(ends) == 2 and section.count("pressure-viscosity coefficient") == 1
+    percents = re.search(r"it may change f by ([-+\d.]+) to ([-+\d.]+) %, as long as", section).groups()
+    assert [float(end) for end in percents] == pytest.approx([100 * side for side in sides], rel=0.06)
+    assert f"At {speed:.4g} m/s and a peak Hertz pressure of" in section
+    assert "Give lubricant.pressure_viscosity_coefficient, from a data sheet" in section
+    given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": ROLLER.lubricant.pressure_viscosity_coefficient})
+    assert "pressure-viscosity" not in describe_scene(given).partition("effects not modelled")[2]
 
 
 def test_a_starved_inlet_is_reported_where_the_asperities_carry_most():

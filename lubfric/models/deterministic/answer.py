@@ -67,10 +67,9 @@ BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which publishe
 # Counted work of a strip [s] above which no cells are recommended: an hour. A convention.
 LONGEST_WORK = 3600.0
 FEW_STRIPS = "not known from fewer than three strips"
-UNSOLVED_CELLS = (
-    "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
-    "cells; set a larger numerics.max_work to reduce it, if the work ended the solve"
-)
+UNSOLVED_CELLS = "shorter cells did not converge{}: the numerical error is twice the estimate from longer cells"
+WITHIN_WORK = " within the work of a point"
+MORE_WORK = "set a larger numerics.max_work"
 ENDED_CELLS = (
     "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical error above "
     "numerics.tolerance"
@@ -84,8 +83,12 @@ TOO_MANY_CELLS = (
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
-# Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
-FILM_OF_STRIPS = "of the film between asperity contacts, on the cells of the solve of f"
+# Where a local peak of the film pressure is, by whether asperities carry load. The picture of the contact is of another solve, with
+# the contacts.
+FILM_OF_STRIPS = {
+    True: "of the film between asperity contacts, on the cells of the solve of f",
+    False: "of the film over the roughness, on the cells of the solve of f",
+}
 # What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of the
 # asperity load.
 RUBS = {
@@ -172,8 +175,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             notes=(
                 *_sample_notes(prepared, sampling_error, levels),
                 *filter(None, [limit_in_words(by_limit), of_heat]),
-                *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
-                *([ENDED_CELLS] if levels.has_ended_cells else []),
+                *_unsolved_in_words(levels),
                 *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
             ),
         ),
@@ -339,6 +341,13 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     )
 
 
+def _unsolved_in_words(levels: Levels) -> list[str]:
+    """Return that shorter cells were not solved, and, where the work of the point did not allow them, what reduces the error."""
+    texts = [UNSOLVED_CELLS.format(WITHIN_WORK if levels.lacks_work else "")] if levels.has_unsolved_cells else []
+    texts += [ENDED_CELLS] if levels.has_ended_cells else []
+    return [f"{text}; {MORE_WORK} to reduce it" if levels.lacks_work else text for text in texts]
+
+
 def _share_given_off(results: Sequence[DeterministicResult]) -> float:
     """Return the share of the lubricant that comes out of touching cells, mean over the strips."""
     return mean(result.share_given_off for result in results)
@@ -352,6 +361,8 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
         return shorter_cells_in_motion(prepared, levels.pairs[0]).removesuffix(",")
     if levels.has_too_many_cells:
         return _fewer_cells(sample)
+    if levels.lacks_work:
+        return f"{MORE_WORK} for shorter cells"
     if not sample.cells.is_native and not sample.refines_in_place:
         return "set numerics.grid = 'given' for shorter cells"
     if prepared.is_given_or_measured:
@@ -390,6 +401,8 @@ def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     if has_moving_roughness(prepared.scene):
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
     narrower = _fewer_cells(prepared.sample) if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE
+    if levels.lacks_work:
+        narrower = MORE_WORK
     return f"{narrower} to reduce it"
 
 
@@ -507,7 +520,7 @@ def _violations(
     friction_force = abs(numbers["coefficient"]) * scene.bodies.load
     yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction_force)
     peak = max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
-    for violation in violations_by_pressure(scene, peak, FILM_OF_STRIPS):
+    for violation in violations_by_pressure(scene, peak, FILM_OF_STRIPS[numbers["contact_load"] > 0]):
         yield replace(violation, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from violations_by_thickness(scene, film)
     if scene.bodies.boundary_film is None and film < BOUNDARY_FILM:

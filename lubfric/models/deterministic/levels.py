@@ -135,6 +135,7 @@ class Levels:
     numerical : relative error of f, by the cells of the last level
     length : of all strips [m]
     has_unsolved_cells : whether shorter cells were needed and did not converge
+    lacks_work : whether they would have taken more work than the point has
     has_too_many_cells : whether they were needed and are too many
     has_ended_cells : whether they were needed and did not pay
     note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
@@ -157,6 +158,7 @@ class Levels:
     numerical: float
     length: float
     has_unsolved_cells: bool = False
+    lacks_work: bool = False
     has_too_many_cells: bool = False
     has_ended_cells: bool = False
     note: str = ""
@@ -322,6 +324,7 @@ def levels_of(
         pairs=tuple(pairs),
         pieces=shorter.pieces,
         has_unsolved_cells=shorter.has_unsolved,
+        lacks_work=shorter.lacks_work,
         has_too_many_cells=shorter.has_too_many,
         has_ended_cells=shorter.has_ended,
         shortest=shorter.shortest,

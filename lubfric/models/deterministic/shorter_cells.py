@@ -178,6 +178,7 @@ class ShorterCells:
     change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
+    lacks_work : whether they would have taken more work than there is
     has_too_many : whether shorter cells were needed, and are more than `MOST_GRID_CELLS`
     has_ended : whether shorter cells were needed, and did not pay (`_pays`)
     """
@@ -189,6 +190,7 @@ class ShorterCells:
     change: float = 0.0
     error: float
     has_unsolved: bool = False
+    lacks_work: bool = False
     has_too_many: bool = False
     has_ended: bool = False
 
@@ -225,8 +227,9 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     try:
         with limited_work(PIECES_SHARE * work_left()):
             pieces, scatter = _third_level(prepared, speed, pairs)
-    except ConvergenceError:
-        return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
+    except ConvergenceError as failure:
+        lacks_work = isinstance(failure, WorkLimitError)
+        return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True, lacks_work=lacks_work)
     except TooManyCellsError:
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_too_many=True)
     change = abs(float(np.mean([piece.change for piece in pieces])))  # its error is reported
@@ -246,7 +249,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return _strip_on_shorter_cells(prepared, speed, pieces, scatter, error=error, spent=spent, most=most)
     expected = _work_of_last_level(sample, pieces[0])
     if not _pays(tolerance, (by_longer, change), spent=spent, expected=expected, most=most, left=halvings - 1):
-        return ShorterCells(pieces=pieces, sampling_error=scatter, error=error, has_ended=True)
+        lacks_work = expected > most
+        return ShorterCells(pieces=pieces, sampling_error=scatter, error=error, has_ended=True, lacks_work=lacks_work)
     try:
         with limited_work(most):
             slope = pairs[0].resolved.slope
@@ -258,6 +262,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             sampling_error=scatter,
             error=UNSOLVED_FACTOR * error,
             has_unsolved=not has_too_many,
+            lacks_work=isinstance(failure, WorkLimitError),
             has_too_many=has_too_many,
         )
     error = _error_of_short_piece(shortest, (change, shortest.last_change), max(halvings - 2, 1))
@@ -384,6 +389,7 @@ class Ladder:
     strips: tuple[StripSolution, ...]
     error: float
     has_unsolved: bool = False
+    lacks_work: bool = False
     has_too_many: bool = False
     has_ended: bool = False
 
@@ -420,6 +426,7 @@ def _continued(
     ladder = list(strips)
     failure: LubfricError | None = None
     has_ended = False
+    lacks_work = False
     with limited_work(most):
         while (shorter := shorten(coarsening)) != coarsening and (error > tolerance or is_first_needed):
             left = math.ceil(math.log2(max(coarsening)))
@@ -438,6 +445,7 @@ def _continued(
                 )
             )
             if has_ended:
+                lacks_work = expected > work_left()
                 break
             try:
                 with limited_work(min(work_left(), MOST_OVER_EXPECTED * expected) if has_end else work_left()):
@@ -458,6 +466,7 @@ def _continued(
         strips=tuple(ladder),
         error=error if failure is None else UNSOLVED_FACTOR * error,
         has_unsolved=failure is not None and not has_too_many,
+        lacks_work=lacks_work or isinstance(failure, WorkLimitError),
         has_too_many=has_too_many,
         has_ended=has_ended,
     )
@@ -497,6 +506,7 @@ def _strip_on_shorter_cells(
         sampling_error=scatter,
         error=ladder.error,
         has_unsolved=ladder.has_unsolved,
+        lacks_work=ladder.lacks_work,
         has_too_many=ladder.has_too_many,
         has_ended=ladder.has_ended,
     )
@@ -542,6 +552,7 @@ def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGr
     unsolved = ShorterCells(
         error=ladder.error,
         has_unsolved=ladder.has_unsolved,
+        lacks_work=ladder.lacks_work,
         has_too_many=ladder.has_too_many,
         has_ended=ladder.has_ended,
     )

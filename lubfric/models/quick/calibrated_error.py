@@ -23,6 +23,15 @@ OUTSIDE = (
     "the quick model is not calibrated for such contacts, so its model-form error is increased, at most three times"
 )
 
+# The same where numerics.model = 'auto' chose this model.
+OUTSIDE_OF_CHOSEN = (
+    "the cases on which the quick model is calibrated end there; its model-form error, which the interval of f contains, is increased "
+    "for this, at most three times"
+)
+
+# The name of this model (`lubfric.models.quick.QuickModel.name`).
+QUICK = "quick"
+
 # The lambda ratio by which contacts are compared with those of the calibration.
 RATIO_IN_WORDS = "lambda ratio by closed forms"
 # What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
@@ -108,9 +117,10 @@ class Outside:
     unit: str
     distance: float
 
-    @property
-    def violation(self) -> Violation:
-        """What a result, and `lubfric info` before it, says of it."""
+    def violation_in(self, scene: Scene) -> Violation:
+        """Return what a result of ``scene``, and `lubfric info` before it, says of it: a note where the scene does not name the
+        quick model, because the user has not chosen it then."""
+        is_named = scene.numerics.model == QUICK
         factor = 1e-9 if self.unit == "Pa" else 1.0
         is_thick = self.what == RATIO_IN_WORDS and self.value > self.limit
         return Violation(
@@ -119,8 +129,9 @@ class Outside:
             value=factor * self.value,
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
-            consequence=OUTSIDE,
-            recommendation=WIDENED if is_thick else BY_DETERMINISTIC,
+            consequence=OUTSIDE if is_named else OUTSIDE_OF_CHOSEN,
+            recommendation=(WIDENED if is_thick else BY_DETERMINISTIC) if is_named else "",
+            is_note=not is_named,
         )
 
 

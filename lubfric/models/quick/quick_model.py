@@ -300,12 +300,12 @@ class QuickModel(Model):
             return expected_on_hertz(scene)
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
-        expected: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
+        expected: list[tuple[float | None, Violation]] = [(None, part.violation_in(scene)) for part in reported(at_all)]
         for speed in speeds:
             sq = stated_sq(scene)
             if not _is_thick_film_expected(scene, sq, speed):  # else load sharing answers, without long cells
                 outside = out_of_range(scene, sq, speed, known)
-                expected += [(speed, part.violation) for part in reported(outside) if part not in at_all]
+                expected += [(speed, part.violation_in(scene)) for part in reported(outside) if part not in at_all]
         return (*expected_on_hertz(scene), *expected)
 
     def estimate_work(

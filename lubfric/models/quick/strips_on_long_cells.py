@@ -277,7 +277,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         ),
         violations=(
             *answer.violations,
-            *(part.violation for part in reported(on_long_cells.outside)),
+            *(part.violation_in(on_long_cells.scene) for part in reported(on_long_cells.outside)),
         ),
         decision=replace(
             answer.decision,

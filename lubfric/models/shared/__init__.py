@@ -122,6 +122,7 @@ from .unmodelled import (
     alpha_of_points_in_words,
     change_in_words,
     effect_in_words,
+    expected_alpha_at,
     expected_alpha_in_words,
     expected_effects,
     unmodelled_effects,

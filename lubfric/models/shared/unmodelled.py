@@ -19,6 +19,8 @@ import numpy as np
 from ...film import flooded_inlet, hertz, smallest_film, starved_inlet
 from ...oil import carried_stress, shear_stress
 from ...scene import Scene, has_generated_roughness, has_moving_roughness
+from ...units import worded
+from .checks import peak_hertz_pressure
 from .checks_before import STRIP_NODES
 from .heat import TYPICAL
 from .violation import numbers_in_words
@@ -208,6 +210,23 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
     return (
         "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed forms, the lowest "
         f"value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give lubricant.pressure_viscosity_coefficient"
+    )
+
+
+def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffect]) -> str:
+    """Return what the range of an estimated pressure-viscosity coefficient means for f at ``speed`` [m/s], before there is a result,
+    and what to do, in two sentences; "" where none of the ``effects`` is of this coefficient."""
+    of_alpha = [effect for effect in effects if effect.end_of_alpha]
+    ends = [change for effect in of_alpha for change in effect.changes if math.isfinite(change)]
+    alphas = _ends_of_alpha(scene)
+    if not ends or not alphas:
+        return ""
+    (low, high) = (1e9 * alpha for alpha in alphas.values())
+    return (
+        f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the interval of f does "
+        f"not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {worded(peak_hertz_pressure(scene), 'Pa')} it may change "
+        f"f by {change_in_words(min(ends), max(ends))}, as long as the asperity load ratio is not known; the report states what remains for "
+        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to remove it"
     )
 
 
