@@ -123,6 +123,7 @@ class Outside:
         is_named = scene.numerics.model == QUICK
         factor = 1e-9 if self.unit == "Pa" else 1.0
         is_thick = self.what == RATIO_IN_WORDS and self.value > self.limit
+        recommendation = WIDENED if is_thick else BY_DETERMINISTIC
         return Violation(
             assumption=Assumption.CALIBRATED,
             what=self.what,
@@ -130,7 +131,7 @@ class Outside:
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
             consequence=OUTSIDE if is_named else OUTSIDE_OF_CHOSEN,
-            recommendation=(WIDENED if is_thick else BY_DETERMINISTIC) if is_named else "",
+            recommendation=recommendation if is_named else "",
             is_note=not is_named,
         )
 
