@@ -123,7 +123,7 @@ def unit_of_largest(values: Any, unit: str) -> str:
 def printed(unit: str) -> str:
     """Return ``unit`` as printed: "µm", "m²"; "" for "-"."""
     raised = re.sub(r"(?<=[A-Za-z])[23]", lambda digit: digit[0].translate(RAISED), unit)
-    return "" if unit == "-" else re.sub(r"^u(?=m|s)", "µ", raised)
+    return "" if unit == "-" else re.sub(r"^u(?=m|s|J)", "µ", raised)
 
 
 def worded(value: Any, unit: str) -> str:

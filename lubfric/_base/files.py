@@ -301,6 +301,16 @@ class OwnFiles:
                     (self.folder / name).unlink()
         self._mark({name: sums for name, sums in self._checksums.items() if name not in stale} | new)
 
+    def remove(self, patterns: Iterable[str]) -> None:
+        """Remove our files that match ``patterns``; and the folder, where it has nothing else. Raises `OutputError`."""
+        stale = self.among(patterns)
+        for name in stale:
+            (self.folder / name).unlink()
+        self._mark({name: sums for name, sums in self._checksums.items() if name not in stale})
+        if [path.name for path in self.folder.iterdir()] == [MARKER]:
+            (self.folder / MARKER).unlink()
+            self.folder.rmdir()
+
     def _mark(self, checksums: dict[str, list[str]]) -> None:
         write_checked(self.folder / MARKER, json.dumps(checksums, indent=0).encode())
         self._checksums = checksums

@@ -50,7 +50,15 @@ from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .progress import clear_active, state_part
 from .report import report_page
-from .run_files import BIBTEX_FILE, OUTPUTS, RESOLVED_SCENE, RESULT
+from .run_files import (
+    BIBTEX_FILE,
+    OUTPUTS,
+    PICTURE_FORMATS,
+    PICTURES_SO_FAR,
+    RESOLVED_SCENE,
+    RESULT,
+    SO_FAR,
+)
 
 # Exit codes, the second argument of a KeyboardInterrupt: by definition of shells 128 and the number of the signal.
 INTERRUPTED = 130
@@ -251,6 +259,13 @@ def run_begun(
         yield folder, prepared, estimate
 
 
+def _remove_pictures_so_far(folder: Path) -> None:
+    """Remove the pictures that ``lubfric plot`` drew of the unfinished curve or study, and their ``folder`` where it has nothing
+    else."""
+    if folder.is_dir() and not folder.is_symlink():
+        OwnFiles(folder).remove(f"{name}.{kind}" for name in PICTURES_SO_FAR for kind in PICTURE_FORMATS)
+
+
 def read_record(folder: Path) -> dict[str, Any]:
     """Return what result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
     path = folder / RESULT
@@ -261,7 +276,7 @@ def read_record(folder: Path) -> dict[str, Any]:
     for violation in _violations_of(record):
         violation.setdefault("recommendation", violation.pop("remedy", None))  # as records of version 1.0.0 have it
     hints = get_type_hints(Violation)
-    newer = ("assumption", "is_note")  # fields that records of version 1.0.0 have not
+    newer = ("assumption", "is_note", "effect")  # fields that records of version 1.0.0 have not
     kinds = {field.name: hints[field.name] for field in fields(Violation) if field.name not in newer}
     numbers = {name: kind | None if kind is float else kind for name, kind in kinds.items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
@@ -533,5 +548,7 @@ def run_folder(path: Path, begun: CommandStart, fingerprint: str = "", states: s
         clear_parts(path)
         folder = RunFolder(path, begun, fingerprint, states)
         yield folder
+        if not (path / UNFINISHED).is_dir():
+            _remove_pictures_so_far(path / SO_FAR)
     if folder.failures:
         raise OutputError(f"{'; '.join(folder.failures)}; all else is in {path}")

@@ -12,7 +12,14 @@ import numpy as np
 from .._base import FloatArray, figures
 from ..errors import InputError
 from ..studies import friction_over_speed, gaps_of, interval_band
-from ..time import add_angle_axis, band_label, friction_over_time, in_motion, time_scale
+from ..time import (
+    add_angle_axis,
+    band_label,
+    friction_over_time,
+    in_motion,
+    sense_of_friction_over_time,
+    time_scale,
+)
 from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
@@ -35,7 +42,8 @@ NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 2.7, "load": 1.7, "film": 1.9, "temperature": 1.7}  # inch, at the usual width
-HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8, 1.4)  # inch, at the usual width: speeds, films, load ratios, f, power loss
+HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8)  # inch, at the usual width: speeds, films, load ratios, f
+LAST_HEIGHT = 1.4  # inch, at the usual width: of friction force and power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
@@ -336,12 +344,14 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
 def plot_history(
     path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
 ) -> None:
-    """Draw speeds and load, film, load ratios, f and, where it is known, the power loss over time, from the columns of
-    history.csv."""
+    """Draw speeds and load, film, load ratios, f, friction force and, where it is known, the power loss over time, from the columns
+    of history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
-    has_power = "power_loss" in c and bool(np.any(c["power_loss"] > 0))
-    heights = [*HISTORY_HEIGHTS[: 5 if has_power else 4]]
+    further = [_force_over_time] if "friction_force" in c else []
+    if "power_loss" in c and np.any(c["power_loss"] > 0):
+        further.append(_power_over_time)
+    heights = [*HISTORY_HEIGHTS, *([LAST_HEIGHT] * len(further))]
     figure = figures.new_figure(figsize=options.size(heights))
     first, second, third, fourth, *others = figure.subplots(len(heights), 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k", label="entrainment speed $U$")
@@ -373,16 +383,34 @@ def plot_history(
     if np.isfinite(low).any():
         fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
     friction_over_time(fourth, c)
-    for fifth in others:
-        _power_over_time(fifth, t, c)
-        fifth.set_xlabel(fourth.get_xlabel())
-        fourth.set_xlabel("")
+    time_label = fourth.get_xlabel()
+    for axes, draw in zip(others, further):
+        draw(axes, t, c)
+    for axes in (fourth, *others):
+        axes.set_xlabel("")
+    (fourth, *others)[-1].set_xlabel(time_label)
     fourth.set_xlim(t[0], t[-1])
     add_angle_axis((fourth, *others)[-1], c)
     options.scale(fourth, friction=fourth, f=c["coefficient"])
     options.thin(figure)
     figures.fit_labels(figure)
     figure.savefig(path)
+
+
+def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Draw the friction force on the upper surface over the times ``t`` of an axis, with the band of its intervals; none at
+    rest, where it may have any value up to that of the first slip."""
+    moving = in_motion(c)
+    unit = unit_for(c["friction_force"][moving].tolist(), "N")
+    if np.isfinite(c.get("interval_low", np.zeros(0))).any():
+        ends = (c[f"interval_{end}"] * c["load"] * sense_of_friction_over_time(c) for end in ("low", "high"))
+        (first, second) = (converted(end, "N", unit) for end in ends)
+        axes.fill_between(t, first, second, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
+    force = np.where(moving, converted(c["friction_force"], "N", unit), np.nan)
+    axes.plot(t, force, color=figures.BLUE, lw=1.2, label="friction force on the upper surface, along +x")
+    axes.axhline(0.0, color=figures.GREY, lw=0.6)
+    axes.set(ylabel=f"force ({printed(unit)})")
+    figures.key_above(axes)
 
 
 def _power_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:

@@ -779,10 +779,15 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
     range_ = with_interval(float(f[peak]), low, high, level)
     sentences.append(f"The largest f is {range_}, at t = {_moment(result, peak)}.")
+    sentences.append(_largest_force(result))
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        sentences.append(f"The mean power loss is {loss}, {_largest_power_loss(result)}.")
+        energy, *ends = ((last - first) * value for value in (mean.power_loss, *mean.power_loss_interval))
+        taken = with_interval(energy, *ends, unit="J")
+        sentences.append(
+            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in {worded(last - first, 's')}."
+        )
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
         if run_model_of(scene).solves_rough_film
@@ -814,6 +819,16 @@ def _without_lambda_ratio(result: TransientResult) -> str:
     """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for none."""
     count = int(np.sum(~rolls(result.columns)))
     return f"; {counted(count, 'outputs')} without entrainment {'have' if count > 1 else 'has'} none" if count else ""
+
+
+def _largest_force(result: TransientResult) -> str:
+    """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a sentence."""
+    force = np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)
+    index = int(np.nanargmax(force))
+    load = float(result.load[index])
+    ends = (load * float(end) for end in result.uncertainty.interval[index])
+    largest = with_interval(load * float(result.coefficient[index]), *ends, unit="N")
+    return f"The largest friction force is {largest}, at t = {_moment(result, index)}."
 
 
 def _largest_power_loss(result: TransientResult) -> str:

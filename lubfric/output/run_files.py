@@ -11,7 +11,8 @@ BIBTEX_FILE = "references.bib"  # what the result cites, as BibTeX
 
 # The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
 RESOLVED_STUDY = "resolved_study.toml"
-SO_FAR = "so_far"  # folder within that of an unfinished study, for its picture
+SO_FAR = "so_far"  # folder within that of an unfinished study or curve, for its picture
+PICTURES_SO_FAR = ("study", "stribeck", "traction")  # names of that picture
 PICTURE_FORMATS = ("png", "pdf", "svg")  # in which 'lubfric plot' draws a picture again
 
 

@@ -123,10 +123,11 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *,
 
 
 def _table(result: TransientResult) -> bytes:
-    """Return history.csv; where the surfaces are at rest there is no f, and its cells are empty."""
+    """Return history.csv. Where the surfaces are at rest, there is no f, and the friction force of the asperity contacts may have
+    any value up to that of the first slip: these cells are empty."""
     moving = in_motion(result.columns).tolist()
     columns: dict[str, np.ndarray | list[Any]] = {heading(name): result.columns[name] for name in OF_MOMENT}
-    for name in ("coefficient", "interval_low", "interval_high"):
+    for name in ("coefficient", "interval_low", "interval_high", "friction_force", "boundary_force"):
         values = result.columns[name].tolist()
         columns[heading(name)] = [value if moves else "" for value, moves in zip(values, moving)]
     if not np.isfinite(result.angle_of_rotation).any():

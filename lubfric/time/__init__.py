@@ -25,6 +25,7 @@ from .result import (
     friction_over_time,
     in_motion,
     rolls,
+    sense_of_friction_over_time,
     time_scale,
 )
 from .run import raise_if_failed, run_in_time, transient

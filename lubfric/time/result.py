@@ -492,10 +492,15 @@ def rolls(c: dict[str, np.ndarray]) -> np.ndarray:
     return in_motion(c | {"sliding_speed": np.zeros(c["entrainment_speed"].size)})
 
 
+def sense_of_friction_over_time(c: dict[str, np.ndarray]) -> FloatArray:
+    """Return the sign of the friction force along +x at a positive coefficient, by the ``c`` of a `lubfric.TransientResult`."""
+    speed = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
+    return np.where(speed < 0, -1.0, 1.0)
+
+
 def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
     """Draw friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
-    sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
-    sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
+    sense = sense_of_friction_over_time(c)
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
     moving = in_motion(c)

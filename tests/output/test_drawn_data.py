@@ -368,8 +368,14 @@ def test_a_history_is_drawn_by_its_table(figures):
     assert "(nm)" in second.get_ylabel() and fourth.get_xlabel() == "time (ms)" and "(N)" in load.get_ylabel()
     power = np.array([2e-3, 5e-3, 4e-3])
     ends = {"power_loss_low": 0.9 * power, "power_loss_high": 1.2 * power}
-    plot_history("x.png", columns | ends | {"power_loss": power}, "title")
+    force = {"friction_force": columns["coefficient"] * columns["load"]}
+    of_f = {"interval_low": 0.9 * columns["coefficient"], "interval_high": 1.2 * columns["coefficient"]}
+    plot_history("x.png", columns | ends | force | of_f | {"power_loss": power}, "title")
     (*_, above, last, _) = figures[1].axes
+    newtons = np.array([0.15, 0.3, 0.32])
+    np.testing.assert_allclose(data(above, "friction force on the upper surface, along +x"), [[0, 10, 20], newtons])
+    np.testing.assert_allclose(edges(above, "95 % interval, without model-form error"), [0.9 * newtons, 1.2 * newtons])
+    assert above.get_ylabel() == "force (N)"
     np.testing.assert_allclose(data(last, "power loss"), [[0, 10, 20], [2, 5, 4]])
     np.testing.assert_allclose(
         edges(last, "95 % interval, without model-form error"), [[1.8, 4.5, 3.6], [2.4, 6.0, 4.8]]

@@ -1,6 +1,7 @@
 """report.html in a real browser: it fits a phone, a window and a sheet of paper, its pictures are there, and no word of a
 user runs as a script."""
 
+import csv
 import json
 import re
 import shutil
@@ -286,3 +287,20 @@ def test_the_table_of_a_run_has_rows_where_it_changes():
     picked = evenly_by_change(columns, 11)
     assert picked[0] == 0 and picked[-1] == 199 and all(100 < index <= 119 for index in picked[1:-1])
     assert np.ptp(np.diff(columns["load"][picked[:-1]])) <= 1.0
+
+
+def test_a_run_has_no_friction_force_at_a_standstill_and_states_the_largest_one(tmp_path):
+    """At 0 and 0.5 ms the speed changes its sign, but for rounding; the energy is the integral of the power."""
+    motion = MOTION.replace("mean = 0.2", "mean = 0.0").replace("outputs = 4", "outputs = 8")
+    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH + motion)
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == 0
+    (heads, *rows) = csv.reader((tmp_path / "out" / "history.csv").read_text().splitlines())
+    columns = {head.partition(" [")[0]: [row[i] for row in rows] for i, head in enumerate(heads)}
+    for name in ("coefficient", "friction_force", "boundary_force"):
+        assert [cell == "" for cell in columns[name]] == [abs(float(u)) < 1e-9 for u in columns["entrainment_speed"]]
+        assert "" in columns[name]
+    page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
+    force = max(abs(float(cell)) for cell in columns["friction_force"] if cell)
+    assert float(re.search(r"largest friction force is ([\d.]+) (m?)N", page)[1]) == pytest.approx(force, rel=0.03)
+    energy = np.trapezoid(np.array(columns["power_loss"], float), np.array(columns["time"], float))
+    assert float(re.search(r"Friction takes ([\d.]+) µJ in 1 ms", page)[1]) == pytest.approx(1e6 * energy, rel=0.03)

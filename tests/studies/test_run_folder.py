@@ -387,3 +387,7 @@ def test_an_interrupted_run_is_drawn_as_far_as_it_is(tmp_path, monkeypatch, caps
     curve = lubfric.stribeck(lubfric.load_scene(tmp_path / "scene.toml"), [0.003, 0.01, 0.03])
     np.testing.assert_array_equal(columns["coefficient"], curve.coefficient)
     assert (out / "so_far" / "stribeck.png").is_file() and not (out / "stribeck.png").exists()
+    (out / "so_far" / "mine.txt").write_text("not of lubfric")
+    monkeypatch.undo()
+    assert main(["run", written(tmp_path), "--out", str(out)]) == 0
+    assert sorted(path.name for path in (out / "so_far").iterdir()) == [".lubfric", "mine.txt"]

@@ -499,6 +499,7 @@ def test_an_unfinished_study_is_drawn_as_far_as_it_is(tmp_path, drawn, capsys):
     assert main(["study", str(tmp_path / "study.toml"), "--out", str(out)]) == 0
     assert main(["plot", str(out)]) == 0
     assert (out / "study.png").is_file() and "not finished" not in capsys.readouterr().err
+    assert not (out / "so_far").exists()
 
 
 def test_a_study_without_a_point_is_not_drawn(tmp_path, drawn, capsys):
