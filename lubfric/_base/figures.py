@@ -38,6 +38,7 @@ FRICTION_LABEL = axis_label("coefficient")
 ASPERITY_FRICTION = "asperity friction"
 FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
+TICKS_OF_BAR = 4  # of a short bar of colours, about; a choice, by looking at pictures of 85 mm
 NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
 
 # Choices, by looking at the figures.
@@ -347,6 +348,22 @@ class _AlongMap:
         return Bbox.from_bounds(box.x0 + drawn.x1 - whole.x1, bottom, box.width, times * box.height)
 
 
+def _ticks_to_the_end(image: AxesImage, bar: Any) -> None:
+    """Give a short ``bar`` of colours three to five ticks: of numbers from the first to the last of them, of powers of ten all in
+    its range."""
+    from matplotlib.colors import LogNorm
+    from matplotlib.ticker import LogLocator, MaxNLocator
+
+    (low, high) = image.get_clim()
+    if not isinstance(image.norm, LogNorm):
+        ticks = MaxNLocator(TICKS_OF_BAR, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3).tick_values(low, high)
+        image.set_clim(min(low, ticks[0]) if low < 0 else low, ticks[-1])
+        bar.set_ticks([tick for tick in ticks if tick >= low])
+    elif high > 100.0 * low:
+        decades = LogLocator(numticks=2 * TICKS_OF_BAR).tick_values(low, high)
+        bar.set_ticks([decade for decade in decades if low <= decade <= high])
+
+
 def field_image(
     axes: Axes,
     x: FloatArray,
@@ -374,6 +391,8 @@ def field_image(
     if isinstance(image.norm, LogNorm):
         bar.long_axis.set_major_formatter("{x:g}")
         plain_ticks(bar.long_axis)
+    if place == "top":
+        _ticks_to_the_end(image, bar)
     axes.set(xlabel="x (µm), along the motion")
     along = "" if WIDE_MAP > ratio and not slender else ", along the line"
     axes.set(ylabel=f"y (µm){along}{' (not to scale)' if slender else ''}")

@@ -125,7 +125,7 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
         _hertz_strip(axes, contact.half_width, options)
         axes.label_outer()
     solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part, 'this strip')}"
-    _title(figure, f"U = {contact.speed:g} m/s{solve}; dashed: Hertz strip", options)
+    _title(figure, f"U = {contact.speed:.4g} m/s{solve}; dashed: Hertz strip", options)
     return figure
 
 
@@ -227,7 +227,7 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     (figure, axes) = _panels(sum(panels), options, slender=slender, ratio=ratio)
     if fields is not None and wide:
         (figure, axes) = _stacked(sum(panels), _drawn_ratio(fields.x, fields.y[part]), options)
-    title = f"{'' if options.is_narrow else 'load-sharing model: '}U = {contact.speed:g} m/s"
+    title = f"{'' if options.is_narrow else 'load-sharing model: '}U = {contact.speed:.4g} m/s"
     if fields is not None and touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
         label = f"contact pressure ({unit})"

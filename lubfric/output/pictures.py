@@ -11,6 +11,7 @@ import numpy as np
 
 from .._base import FloatArray, figures
 from ..errors import InputError
+from ..samples import is_measured
 from ..studies import friction_over_speed, gaps_of, interval_band
 from ..time import (
     add_angle_axis,
@@ -314,10 +315,14 @@ def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
 
 @figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
-    """Draw the map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
-    (Abbott-Firestone) curve of the whole of it."""
-    surface = prepared.sample.whole_map
-    x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
+    """Draw the map that the scene of ``prepared`` has, to scale: of generated strips the first, as two of them beside each other have
+    a seam, and of a long line the beginning; and the bearing (Abbott-Firestone) curve of the whole of it."""
+    sample = prepared.sample
+    surface = sample.whole_map
+    is_one_of_strips = sample.first_strips > 1 and not is_measured(prepared.scene)
+    drawn = sample.strip(0) if is_one_of_strips else surface
+    whole = f"the first of {sample.first_strips} strips" if is_one_of_strips else "the map"
+    x, y = (np.arange(count) * step for count, step in zip(drawn.shape, drawn.spacing))
     part = drawn_part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
     (width, height) = size_of_maps(x, y[part], 1)
@@ -330,13 +335,17 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     else:
         figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
         above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
-    surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
+    drawn.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_xlabel("x (µm), along the motion")
-    above.set_title(above.get_title() + part_in_words(y, part, "the map"), fontsize=10)
+    shown = part_in_words(y, part, whole).removeprefix("; ") or (whole if is_one_of_strips else "")
+    above.set_title("\n".join(filter(None, (above.get_title(), shown))), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
-    bearing.set_title(f"complete map:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
+    bearing.set_title(
+        f"{'all strips' if is_one_of_strips else 'complete map'}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}",
+        fontsize=10,
+    )
     figure.savefig(path)
 
 

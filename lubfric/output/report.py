@@ -783,10 +783,11 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        energy, *ends = ((last - first) * value for value in (mean.power_loss, *mean.power_loss_interval))
-        taken = with_interval(energy, *ends, unit="J")
+        duration = last - first
+        (low, high) = mean.power_loss_interval
+        taken = with_interval(duration * mean.power_loss, duration * low, duration * high, unit="J")
         sentences.append(
-            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in {worded(last - first, 's')}."
+            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in {worded(duration, 's')}."
         )
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
@@ -826,8 +827,8 @@ def _largest_force(result: TransientResult) -> str:
     force = np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)
     index = int(np.nanargmax(force))
     load = float(result.load[index])
-    ends = (load * float(end) for end in result.uncertainty.interval[index])
-    largest = with_interval(load * float(result.coefficient[index]), *ends, unit="N")
+    (low, high) = (load * float(end) for end in result.uncertainty.interval[index])
+    largest = with_interval(load * float(result.coefficient[index]), low, high, unit="N")
     return f"The largest friction force is {largest}, at t = {_moment(result, index)}."
 
 

@@ -669,7 +669,7 @@ def _plot(
     if "ratio" in columns:
         (first, *others) = title.splitlines()
         speed = columns["speed"][np.isfinite(columns["coefficient"])][0]
-        title = "\n".join([f"{first}, U = {speed:g} m/s", *others])
+        title = "\n".join([f"{first}, U = {speed:.4g} m/s", *others])
     if options.is_narrow:  # what the answers rest on is for the caption
         title = title.splitlines()[0]
     swept = columns["ratio" if "ratio" in columns else "speed"]

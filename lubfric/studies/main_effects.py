@@ -114,8 +114,11 @@ def is_scattered(result: Any, key: str) -> bool:
 def _independent_errors(columns: dict[str, np.ndarray], known: np.ndarray) -> np.ndarray:
     """Return the standard deviation of ln |f| at the ``known`` points by the errors that differ from point to point; NaN where
     one of these is not known."""
-    at_95 = np.hypot(columns["numerical_error"][known], columns["model_error"][known])
-    return np.hypot(at_95 / HALF_WIDTH_OF_NORMAL, columns["sampling_error"][known])
+    unknown = np.full(known.shape, np.nan)
+    numerical, model, sampling = (
+        columns.get(f"{name}_error", unknown)[known] for name in ("numerical", "model", "sampling")
+    )
+    return np.hypot(np.hypot(numerical, model) / HALF_WIDTH_OF_NORMAL, sampling)
 
 
 def _share(x: np.ndarray, y: np.ndarray, *, is_fitted: bool) -> float:

@@ -160,7 +160,7 @@ def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int
     lines: list[dict[str, Any]] = [{"color": colour, "lw": 1.0} for colour in line_colours(shades)]
     for index, line in zip(indices, lines):
         if few:
-            line["label"] = figures.plain_words(label(plan, _without(index, along)))
+            line["label"] = figures.plain_words(label(plan, _without(index, along), uses_symbols=True))
         if others:
             place = int(np.ravel_multi_index([index[axis] for axis in others], sizes[others]))
             line |= dict(zip(("marker", "ls"), STYLES[place])) | {"ms": 3.5}
@@ -193,7 +193,7 @@ def _label_along(plan: StudyPlan, places: dict[int, int]) -> str:
     index: list[Any] = [slice(None)] * len(plan.dims)
     for axis, place in places.items():
         index[axis] = place
-    return figures.plain_words(label(plan, tuple(index)))
+    return figures.plain_words(label(plan, tuple(index), uses_symbols=True))
 
 
 def line_colours(shades: np.ndarray) -> np.ndarray:

@@ -35,6 +35,9 @@ BAND = "95 % interval"
 # Lines of operating points, at most. A choice, by looking at the figures.
 MOST_OF_POINTS = 10
 
+# Symbols that are the end of the label of a quantity, by the label.
+SYMBOL_AT_END = {"root mean square height Sq": "Sq"}
+
 # Quantities of operating points that jump, or have a minimum, where the direction of sliding changes.
 OF_SLIDING = "coefficient", "power_loss"
 
@@ -197,8 +200,9 @@ def place_in_words(plan: StudyPlan, index: tuple[Any, ...], speed: float) -> str
     return ", ".join(filter(None, (label(plan, index), f"speed {worded(speed, 'm/s')}")))
 
 
-def label(plan: StudyPlan, index: tuple[Any, ...]) -> str:
-    """Return what is varied at the position ``index`` along the axes of a study, as text."""
+def label(plan: StudyPlan, index: tuple[Any, ...], *, uses_symbols: bool = False) -> str:
+    """Return what is varied at the position ``index`` along the axes of a study, as text; ``uses_symbols``: as in the key of a
+    picture, "Sq = 50 nm" where the label of a quantity ends with its symbol (`SYMBOL_AT_END`)."""
     places = dict(zip(plan.dims, index))
     along = {
         key: values[places[dim]]
@@ -206,7 +210,11 @@ def label(plan: StudyPlan, index: tuple[Any, ...]) -> str:
         if key != SPEED and isinstance(places.get(dim), int)
     }
     kinds = {key: COLUMNS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}
-    return ", ".join(f"{kind.label} {worded_value(key, along[key].item())}" for key, kind in kinds.items())
+    names = {
+        key: f"{symbol} =" if uses_symbols and (symbol := SYMBOL_AT_END.get(kind.label)) else kind.label
+        for key, kind in kinds.items()
+    }
+    return ", ".join(f"{names[key]} {worded_value(key, along[key].item())}" for key in kinds)
 
 
 def check_tools(*, netcdf: bool, parquet: bool) -> None:
@@ -295,10 +303,11 @@ def friction_over_speed(
     interval_band(axes, speed, c, line and line[:2], has_parts=has_parts, as_bars=as_bars)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        joined: dict[str, Any] = {"marker": "o", "ms": 4, "ls": ":"}  # a dotted line joins the points, and is no curve
-        if speed.size > 1 and figures.NOT_BETWEEN not in axes.get_legend_handles_labels()[1]:
-            axes.plot([], [], ":", color=figures.BLUE, label=figures.NOT_BETWEEN)
-        figures.friction_lines(axes, speed, parts, without=without, **joined | style)
+        color = style.get("color", figures.BLUE)
+        if speed.size > 1:  # a dotted line joins the points, and is no curve
+            is_new = figures.NOT_BETWEEN not in axes.get_legend_handles_labels()[1]
+            axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN if is_new else None)
+        figures.friction_lines(axes, speed, parts, without=without, **{"marker": "o", "ms": 4, "ls": ""} | style)
     else:
         figures.friction_lines(axes, line[0], line[1:], without=without, **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))

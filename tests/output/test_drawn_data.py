@@ -102,8 +102,9 @@ def test_a_curve_is_drawn_by_its_table(figures):
         ("fluid friction", [0.05 / 5, 0.05 / 5, 0.1 / 5]),
     ):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
-    (joined,) = (line for line in top.lines if line.get_label() == "friction coefficient")
-    assert joined.get_linestyle() == ":"  # three points a decade apart show no curve
+    styles = {line.get_label(): line.get_linestyle() for line in top.lines}
+    assert styles["friction coefficient"] == "None"  # three points a decade apart show no curve
+    assert styles["not known in between"] == ":"
     key = [text.get_text() for text in top.get_legend().get_texts()]
     assert key.count("not known in between") == 1
     np.testing.assert_allclose(
@@ -505,10 +506,14 @@ def test_fields_that_are_damaged_or_missing_are_refused(tmp_path, capsys, conten
 
 
 def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, solved):
+    """Of several strips beside each other the beginning of the first, which has no seam."""
     for prepared, rows in ((solved[0], 32), (lubfric.prepare(lubfric.load_scene("paper")), 103)):
         plot_surface("x.png", prepared)
         (image,) = figures[-1].axes[0].images
-        part = 1e9 * prepared.surface.heights[:, :rows]
+        count = prepared.sample.first_strips
+        drawn = prepared.sample.strip(0) if count > 1 else prepared.surface
+        assert (f"the first of {count} strips" in image.axes.get_title()) == (count > 1)
+        part = 1e9 * drawn.heights[:, :rows]
         np.testing.assert_allclose(image.get_array(), (part - part.mean()).T, atol=1e-9)
         assert f"Sq = {part.std():.4g} nm" in image.axes.get_title() and image.axes.get_aspect() == 1.0
         (share, height) = figures[-1].axes[1].lines[0].get_data()
@@ -722,7 +727,7 @@ def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(fi
     curves = [line for line in axes.lines if len(line.get_xdata())]
     assert len({(line.get_marker(), str(line.get_color())) for line in curves}) == len(curves) == 12
     assert len({line.get_marker() for line in curves}) == 3
-    assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("Sq ")[2] for line in axes.lines}
+    assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("Sq = ")[2] for line in axes.lines}
 
 
 def test_a_curve_without_intervals_says_so():
