@@ -108,7 +108,8 @@ class Surface(FrozenArrays, Shown):
         (nx, ny) = self.shape
         (rz, length) = statistics.rz(self)
         curve = self.bearing()
-        waves = ", without longer waves" if rz < 2 * self.sa else ""  # of one evaluation Rz is at least 2 Ra
+        is_wavy = rz < 2 * self.sa  # of one evaluation Rz is at least 2 Ra
+        waves = ", without the longer waves that Sq and Ra contain" if is_wavy else ""
         rz_in_words = f"{rz * 1e9:.4g} nm (mean height within lengths of {length * 1e3:.3g} mm{waves})"
         if math.isnan(rz):
             rz_in_words = f"not known (the spacing is too long for a sampling length of {length * 1e3:.3g} mm)"

@@ -176,6 +176,10 @@ def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.nda
     return np.arange(n // 2 + 1) * surface.spacing[axis], products / pairs / (products[0] / pairs[0])
 
 
+# What makes a correlation length of a wavy map known.
+SHORTER_WAVES = "remove its form, as surface.level('quadratic'), or its long waves, as surface.filtered(l=...)"
+
+
 def correlation_length(surface: Surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
     """Return the first lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
 
@@ -191,8 +195,10 @@ def first_crossing(lags: np.ndarray, acf: np.ndarray, decay_level: float) -> flo
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)
     if below.size == 0:
-        message = f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m"
-        raise InputError(message, allowed="a map at least twice as long as its correlation length")
+        message = f"the autocorrelation stays above decay_level = {level:g} up to {1e6 * lags[-1]:.4g} µm"
+        raise InputError(
+            message, allowed="a map at least twice as long as its correlation length", recommendation=SHORTER_WAVES
+        )
     i = below[0]
     high = acf[i - 1]
     low = acf[i]

@@ -216,7 +216,7 @@ def test_a_wave_longer_than_the_sampling_length_is_in_ra_and_not_in_rz_and_the_l
     """Of a map of one evaluation Rz is at least 2 Ra."""
     x = 1e-6 * np.arange(2000)
     wave = np.repeat(1e-8 * np.sin(2 * np.pi * x / 2e-3)[:, None], 4, axis=1)  # 2 mm; Ra 6.4 nm has lengths of 0.08 mm
-    assert "without longer waves)" in lubfric.Surface(wave, 1e-6).describe()
+    assert "without the longer waves that Sq and Ra contain)" in lubfric.Surface(wave, 1e-6).describe()
     ripple = np.repeat(1e-8 * np.sin(2 * np.pi * x / 2e-5)[:, None], 4, axis=1)
     assert "longer waves" not in lubfric.Surface(ripple, 1e-6).describe()
 

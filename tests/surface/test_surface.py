@@ -110,6 +110,16 @@ def test_a_map_as_long_as_recommended_is_made(acf, length):
         assert generate_surface((cells, cells), 2e-6, **given).shape == (cells, cells)
 
 
+def test_a_map_with_form_has_a_correlation_length_after_what_the_error_recommends():
+    """Roughness of 10 nm on a cylinder along x, which is alike at all distances along x."""
+    y = np.linspace(-1.0, 1.0, 64)[None, :]
+    noise = generated(shape=(256, 64), spacing=1e-6, correlation_length=6e-6, sq=1e-8).heights
+    surface = Surface(noise + 2e-7 * y**2, 1e-6)
+    with pytest.raises(InputError, match=r"up to 128 µm; .*; remove its form, as surface.level\('quadratic'\)"):
+        surface.correlation_length()
+    assert surface.level("quadratic").correlation_length() == pytest.approx(6e-6, rel=0.3)
+
+
 # --- the data type ----------------------------------------------------------------------------
 
 
