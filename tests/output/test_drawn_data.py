@@ -3,6 +3,7 @@ numbers that its artists hold."""
 
 import csv
 import io
+import json
 from types import SimpleNamespace
 
 import numpy as np
@@ -29,6 +30,7 @@ from lubfric.output import (
     plot_surface,
     plot_traction,
 )
+from lubfric.output.commands import read_record
 from lubfric.studies import csv_bytes, friction_over_speed, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
@@ -782,3 +784,18 @@ def test_a_picture_of_a_contact_has_no_empty_band(tmp_path, solved, width):
     height = pixels.shape[0]
     assert max(rows[0], height - 1 - rows[-1]) * 25.4 / 60 < 4.0
     assert np.diff(rows).max() < 0.08 * height
+
+
+@pytest.mark.parametrize("renamed", [False, True])
+def test_a_record_of_version_1_0_0_is_read(tmp_path, renamed):
+    """Its violations have "remedy" in place of a recommendation, and none of the fields that came later; others are refused."""
+    old = {"what": "film pressure", "value": 1.2, "limit": 1.0, "unit": "GPa", "consequence": "why", "severe": False}
+    old |= {"advice" if renamed else "remedy": "less"}
+    record = {"scene": {"name": "old"}, "points": [{"validity": [old]}]}
+    (tmp_path / "result.json").write_text(json.dumps(record))
+    if renamed:
+        with pytest.raises(lubfric.InputError, match="damaged, or no record of a run"):
+            read_record(tmp_path)
+        return
+    (point,) = read_record(tmp_path)["points"]
+    assert point["validity"][0]["recommendation"] == "less"
