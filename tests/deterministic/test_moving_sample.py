@@ -23,6 +23,7 @@ from lubfric.models.deterministic import (
     least_blocks,
     levels,
     mean_over_blocks,
+    moved_downstream,
     sample_coarsening_of,
     solve_moving_strip,
     strip_on_two_grids,
@@ -154,17 +155,25 @@ def test_a_march_ends_when_its_error_is_within_the_target():
 
 def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():
     """In a step in which the film passes one cell: one body goes its own way, two equal ones that of the film, and one that
-    is smooth has no weight. What moves against the film has no start downstream."""
+    is smooth has no weight. What moves against the film starts upstream."""
     rough = generate_surface((64, 64), 2e-6, sq=2e-7, correlation_length=LENGTH, acf="gaussian", seed=1)
     smooth = surface_of(np.zeros((64, 64)))
 
     def cells(*bodies):
         return cells_in_a_step([RoughBody(surface, speed) for surface, speed in bodies], 2e-6, 2e-6)
 
-    assert [cells((rough, speed)) for speed in (0.4, 1.05, 2.0, -1.0)] == pytest.approx([0.4, 1.05, 2.0, 0.0])
+    assert [cells((rough, speed)) for speed in (0.4, 1.05, 2.0, -1.0)] == pytest.approx([0.4, 1.05, 2.0, -1.0])
     assert cells((rough, 0.36), (rough, 1.64)) == pytest.approx(1.0)
     assert cells((rough, 0.36), (smooth, 1.64)) == pytest.approx(0.36)
     assert cells((smooth, 0.36), (rough, 1.64)) == pytest.approx(1.64)
+
+
+def test_roughness_that_moves_upstream_starts_a_step_upstream():
+    """Where it came from enters at the end that it leaves, and parts of a cell are straight lines."""
+    values = np.array([0.0, 1.0, 4.0, 9.0, 16.0])[:, None]
+    assert moved_downstream(values, -2.0)[:, 0].tolist() == [4.0, 9.0, 16.0, 16.0, 16.0]
+    assert moved_downstream(values, -0.25)[:, 0].tolist() == [0.25, 1.75, 5.25, 10.75, 16.0]
+    assert moved_downstream(values, 2.0)[:, 0].tolist() == [0.0, 0.0, 0.0, 1.0, 4.0]
 
 
 def cells_in_motion(film_ratio=1.0, times=1.0, by_longer=0.0, *, third=True, is_smooth=True):

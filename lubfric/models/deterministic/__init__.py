@@ -10,7 +10,7 @@ from .flow import derivatives, mass_balance
 from .heat_of_strip import strip_heat
 from .levels import Levels, levels_of, two_levels
 from .linear import System, gmres, nested_dissection
-from .moving import Moment, RoughBody, moments, travelling
+from .moving import Moment, RoughBody, moments, moved_downstream, travelling
 from .moving_strip import (
     ECONOMICAL,
     FACTORISATIONS_IN_A_STEP,

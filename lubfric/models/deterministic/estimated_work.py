@@ -573,7 +573,7 @@ def moving_point_work(
         fastest=fastest,
         length=sample.cells.columns * sample.cells.spacing[0],
         cells=cells,
-        continuations=_with_middle(solved_ends),
+        continuations=solved_ends,
         course=course,
         factor=factor,
     )

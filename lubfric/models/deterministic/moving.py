@@ -106,14 +106,38 @@ LEAST_PART_IN_MOTION = 0.3
 SAME_STEP = 1e-9
 
 
-@dataclass(frozen=True)
+class Remembered(NamedTuple):
+    """The ``state`` of a moment, and the ``mass`` [m] of its cells."""
+
+    state: State
+    mass: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Past:
+    """What the steps after a moment need of it and of those before it.
+
+    Attributes
+    ----------
+    at, before, earlier : the moment, and the two before it
+    imbalance : what its step left in each cell [m/s]; None: nothing is carried
+    """
+
+    at: Remembered
+    before: Remembered
+    earlier: Remembered
+    imbalance: FloatArray | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Moment:
     """The film ``at`` a ``time`` [s] since the roughness began to move; ``work``: what this step took; ``order`` (of
-    `STEP_ORDERS`): of a step along the lubricant."""
+    `STEP_ORDERS`): of a step along the lubricant; ``past``: what later steps need of it."""
 
     time: float
     at: Iterate
     work: Work
+    past: Past
     order: int = STEP_ORDERS[0]
 
     @cached_property
@@ -136,7 +160,7 @@ def moments(
     problem_at: Callable[[float], Problem],
     step: float,
     *,
-    start: State | None = None,
+    start: State | Past | None = None,
     tolerance: float = MOVING_STEP_RESIDUAL,
     carries_imbalance: bool = False,
     linear_accuracy: float = GMRES_RESIDUAL,
@@ -150,7 +174,8 @@ def moments(
     problem_at : of a time [s], from 0 on, the `Problem` then: its ``heights`` [m] (nx, ny) are those of both bodies.
         Load and speed may change too, the grid may not
     step : [s]. If the lubricant passes one cell in it, the mass is followed along
-    start : the state at time 0; None: the steady film there, of roughness at rest
+    start : the state at time 0, or the `Moment.past` of the moment there, whose steps go on; None: the steady film there, of
+        roughness at rest
     tolerance : of the residuals of a step (`lubfric.models.deterministic.state.residuals`); small waves need 1e-6 and
         less
     carries_imbalance : whether the mass that a step leaves out of balance is added to that of the next step. Then it
@@ -166,17 +191,16 @@ def moments(
     count = 0
     direct_from = 0
     most_direct = MOST_NEWTON_STEPS
-    imbalance: np.ndarray | None = None
-    at = evaluated(problem, solve_point(problem).state if start is None else start)
-    before = at
-    earlier = at
+    past = start if isinstance(start, Past) else _past_of(evaluated(problem, start or solve_point(problem).state))
+    begins_anew = past.at is past.before
+    at = evaluated(problem, past.at.state)
     smooth = max(1, round(SMOOTHED_HALF_WIDTHS * film_half_width(problem.line) / problem.spacing[0]))
-    yield Moment(0.0, at, Work(0))
+    yield Moment(time=0.0, at=at, work=Work(0), past=past)
     while True:
         count += 1
         work = Work(MOST_STEP_FACTORISATIONS)
         problem = problem_at(count * step)
-        history = _history(problem, (at, before, earlier), step, imbalance)
+        history = _history(problem, at, past, step)
         how: dict[str, Any] = {
             "tolerance": tolerance,
             "most": MOST_NEWTON_STEPS,
@@ -184,10 +208,10 @@ def moments(
             "least_part": LEAST_PART_IN_MOTION,
         }
         order = STEP_ORDERS[0]
-        rate = extrapolated if count > STEPS_FROM_REST else 0.0
+        rate = 0.0 if begins_anew and count <= STEPS_FROM_REST else extrapolated
         is_solved = False
         if count >= direct_from:
-            state = _begun(problem, at, before.state, shift, smooth, rate) if shift else at.state
+            state = _begun(problem, at, past.before.state, shift, smooth, rate) if shift else at.state
             result = newton(problem, state, work, history=history, **how | {"most": most_direct})
             is_solved = result.residual <= tolerance
             direct_from = count if is_solved else count + STEPS_IN_PARTS
@@ -195,7 +219,7 @@ def moments(
         if not is_solved:
             nearby = _in_parts(problem_at, at, time=(count - 1) * step, step=step, work=work, how=how)
             for order in STEP_ORDERS if history.follows_lubricant else STEP_ORDERS[:1]:
-                history = _history(problem, (at, before, earlier), step, imbalance, order=order)
+                history = _history(problem, at, past, step, order=order)
                 result = newton(problem, nearby, work, history=history, **how)
                 if result.residual <= tolerance:
                     break
@@ -213,30 +237,27 @@ def moments(
                 residuals=left,
                 advice=advice,
             ).raise_if_failed()
-        earlier = before
-        before = at
         at = result.at
-        if carries_imbalance:
-            imbalance = np.where(at.state.kind == TOUCHING, 0.0, at.residual)
-        yield Moment(count * step, at, work, order)
+        imbalance = np.where(at.state.kind == TOUCHING, 0.0, at.residual) if carries_imbalance else None
+        past = Past(at=Remembered(at.state, at.mass), before=past.at, earlier=past.before, imbalance=imbalance)
+        yield Moment(time=count * step, at=at, work=work, past=past, order=order)
 
 
-def _history(
-    problem: Problem,
-    past: tuple[Iterate, Iterate, Iterate],
-    step: float,
-    imbalance: np.ndarray | None = None,
-    *,
-    order: int = STEP_ORDERS[0],
-) -> TimeHistory:
-    """Return the history of the step to ``problem``; ``past``: the last three moments, from the last one on (of the
-    first step all are one); ``imbalance`` [m/s]: what the last step left in each cell; ``order``: of a step along the
+def _past_of(at: Iterate) -> Past:
+    """Return the past of a motion that begins from ``at``: before it all was as there."""
+    first = Remembered(at.state, at.mass)
+    return Past(at=first, before=first, earlier=first)
+
+
+def _history(problem: Problem, at: Iterate, past: Past, step: float, *, order: int = STEP_ORDERS[0]) -> TimeHistory:
+    """Return the history of the step from ``at`` to ``problem``; ``past``: that of ``at``; ``order``: of a step along the
     lubricant."""
-    (at, before, earlier) = past
+    before = past.before
+    earlier = past.earlier
     cell = problem.spacing[0]
-    lost = 0.0 if imbalance is None else step * imbalance
+    lost = 0.0 if past.imbalance is None else step * past.imbalance
     if max(abs(end.speed * step - cell) for end in (problem, at.problem)) > SAME_STEP * cell:
-        if at is before:
+        if past.at is before:
             return TimeHistory(extrapolated=at.mass, step=step)
         return TimeHistory(extrapolated=extrapolated_mass(at.mass, before.mass) - lost, step=step, last=at.mass)
 
@@ -290,7 +311,10 @@ def _begun(problem: Problem, at: Iterate, before: State, cells: float, smooth: i
 
 
 def moved_downstream(values: FloatArray, cells: float) -> FloatArray:
-    """Return ``values`` (nx, ny) moved by so many ``cells`` along x, linear between them; the first row enters."""
+    """Return ``values`` (nx, ny) moved by so many ``cells`` along x, linear between them; the first row enters, or the last
+    one where they move upstream, by a negative number."""
+    if cells < 0:
+        return moved_downstream(values[::-1], -cells)[::-1]
     complete = math.floor(cells)
     part = cells - complete
 

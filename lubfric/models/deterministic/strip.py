@@ -130,6 +130,11 @@ class StripSolution:
         ).result
 
     @property
+    def compared_result(self) -> DeterministicResult:
+        """The result of this strip that `at_inputs` is compared with."""
+        return self.result
+
+    @property
     def deviations(self) -> np.ndarray:
         """(F_i - slope (w_i - w) - F)/w of every column i along y (ny,), with a mean of 0: what f of places deviates by
         if the load is balanced."""
