@@ -197,7 +197,7 @@ def test_two_keys_are_lines_over_one_with_a_colour_for_each_value_of_the_other(t
     study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[0].axes
     handles = dict(zip(*reversed(axes.get_legend_handles_labels())))
-    names = [f"root mean square height Sq {sq}" for sq in ("50 nm", "100 nm", "200 nm")]
+    names = [f"Sq = {sq}" for sq in ("50 nm", "100 nm", "200 nm")]
     assert [name for name in handles if "Sq" in name] == names
     assert len({to_hex(handles[name].get_color()) for name in names}) == 3
     for place, name in enumerate(names):
