@@ -9,7 +9,11 @@ from pages import ROOT
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 ROOMS = ("estimate", "models", "samples")
 # Types that are one kind of the listed one.
-KINDS = {"RoughContact": ("HalfSpaceContact",), "StripSolution": ("MovingStripSolution",)}
+KINDS = {
+    "RoughContact": ("HalfSpaceContact",),
+    "StripSolution": ("MovingStripSolution",),
+    "tuple[int, int]": ("MapCoarsening", "NativeCoarsening", "SampleCoarsening"),
+}
 
 
 def nouns() -> dict[str, str]:

@@ -125,11 +125,11 @@ def coarsening_at_rest(scene: Scene, sample: Sample) -> MapCoarsening:
     return MapCoarsening((sx * rx, sy * ry))
 
 
-def shortened(scene: Scene, sample: Sample, coarsening: MapCoarsening) -> MapCoarsening:
-    """Return half the ``coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the
+def shortened(scene: Scene, sample: Sample, map_coarsening: MapCoarsening) -> MapCoarsening:
+    """Return half the ``map_coarsening`` of the cells of a patch at rest, or as near to that as native cells allow; the
     same along an axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests
     native cells."""
-    (fx, fy) = coarsening
+    (fx, fy) = map_coarsening
     halves = MapCoarsening((max(1, fx // 2), max(1, fy // 2)))
     if scene.numerics.grid == "given":
         return halves
@@ -219,9 +219,9 @@ def _solve_moving_pair(
     return longer, moving
 
 
-def halved_along_y(coarsening: MapCoarsening) -> MapCoarsening:
-    """Return ``coarsening``, which is even along y, for cells half as long there."""
-    return MapCoarsening((coarsening[0], coarsening[1] // 2))
+def halved_along_y(map_coarsening: MapCoarsening) -> MapCoarsening:
+    """Return ``map_coarsening``, which is even along y, for cells half as long there."""
+    return MapCoarsening((map_coarsening[0], map_coarsening[1] // 2))
 
 
 def on_halved_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids) -> StripOnTwoGrids:
