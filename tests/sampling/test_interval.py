@@ -124,6 +124,18 @@ def test_windows_of_a_measured_map_are_its_sample(tmp_path):
     assert low < lubfric.friction(PAPER.with_(surface={"acf": "gaussian", "seed": 8}), 0.01).coefficient < high
 
 
+@pytest.mark.parametrize("model", ["deterministic", "quick"])
+def test_strips_that_are_all_of_a_map_state_the_area_that_they_need(tmp_path, model):
+    """The standard error falls with the root of the area: the closed form."""
+    scene = on_map(tmp_path, (96, 512)).with_(numerics={"model": model, "sampling_tolerance": 0.002, "tolerance": 0.1})
+    uncertainty = lubfric.friction(scene, 0.02).uncertainty
+    assert uncertainty.sampling > 0.004
+    assert uncertainty.area_needed == pytest.approx((uncertainty.sampling / 0.002) ** 2)
+    assert "the map is too small for the requested 0.2 %" in uncertainty.text
+    enough = scene.with_(numerics={"sampling_tolerance": 0.5})
+    assert lubfric.friction(enough, 0.02).uncertainty.area_needed == 1
+
+
 def test_the_note_on_windows_says_how_much_of_the_map_is_used_and_why(tmp_path):
     """The lengths are those of the joined map and of its windows, which have 400 cells along y each."""
     surface = lubfric.prepare(on_map(tmp_path, (900, 400))).surface

@@ -26,6 +26,7 @@ from ..shared import (
     Prepared,
     StandardError,
     Violation,
+    area_needed,
     contact_on_piece,
     error_by_heat,
     film_lubricant,
@@ -45,6 +46,7 @@ from ..shared import (
     violations_by_pressure,
     violations_by_thickness,
     way_to_shorter_cells,
+    why_map_too_small,
     why_sample_too_short,
     why_too_few_blocks,
 )
@@ -178,6 +180,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
                 *_unsolved_in_words(levels),
                 *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
             ),
+            area_needed=_area_needed(prepared, sampling_error, levels),
         ),
         not_given={key: by_input_not_given[key] for key in inputs_not_given(scene)},
         report=replace(results[0].report, notes=()),
@@ -444,7 +447,15 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
     if is_near_zero(f, half_widths[0]):
         return (f"{SAMPLING_ERROR} is {abs(f) * half_widths[0]:.2g} in f itself, which is near 0",)
     (stated, target) = percent_beside(*half_widths)
-    return (f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})",)
+    note = f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})"
+    needed = _area_needed(prepared, error, levels)
+    return (note, why_map_too_small(tolerance, needed)) if needed > 1 else (note,)
+
+
+def _area_needed(prepared: Prepared, error: StandardError, levels: Levels) -> float:
+    """Return how many times its area a map needs whose strips are all solved (`area_needed`)."""
+    has_ended = prepared.sample.ends_after(len(levels.pairs))
+    return area_needed(error.value, prepared.scene.numerics.sampling_tolerance, has_ended=has_ended)
 
 
 def _words_of_levels(levels: Levels) -> str:

@@ -17,11 +17,13 @@ from ..shared import (
     Sides,
     StandardError,
     added_sides,
+    area_needed,
     error_by_heat,
     has_too_few_contacts,
     heat_error_in_words,
     percent,
     sides_of_parts,
+    why_map_too_small,
     why_sample_too_short,
 )
 from .balance import Balance
@@ -325,10 +327,9 @@ def why_moment_unknown(scene: Scene) -> str:
 def _area_needed(balanced: BalancedSample) -> float:
     """Return how many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not
     known)."""
-    needed = 1.0
-    if balanced.sample.ends_after(balanced.count):
-        needed = (balanced.sampling_error.value / balanced.prepared.scene.numerics.sampling_tolerance) ** 2
-    return max(needed, 1.0) if math.isfinite(needed) else math.nan
+    target = balanced.prepared.scene.numerics.sampling_tolerance
+    has_ended = balanced.sample.ends_after(balanced.count)
+    return area_needed(balanced.sampling_error.value, target, has_ended=has_ended)
 
 
 def _notes(balanced: BalancedSample) -> tuple[str, ...]:
@@ -347,10 +348,7 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
             return (f"{UNDETECTED_UNKNOWN}; give {way_to_longer_line(scene, sample.whole_map)}",)
         return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1], sample),)
     if error > tolerance and needed > 1:
-        times = float(f"{needed:.2g}")
-        notes.append(
-            f"the map is too small for the requested {percent(tolerance)}, which needs about {times:g} times its area"
-        )
+        notes.append(why_map_too_small(tolerance, needed))
     elif error > tolerance:
         notes.append(f"more than the requested {percent(tolerance)}")
     if has_too_few_contacts(balanced.scatter.effective_contacts, error, tolerance):

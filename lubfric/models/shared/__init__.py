@@ -37,6 +37,7 @@ from .checks_before import (
     violations_by_map,
     violations_by_strips,
     violations_by_unusual_inputs,
+    why_map_too_small,
     why_sample_too_short,
     why_too_few_blocks,
 )
@@ -104,6 +105,7 @@ from .statistics import (
     STRIPS_SAFETY,
     StandardError,
     add_errors,
+    area_needed,
     block_error,
     half_width_of_error,
     has_too_few_contacts,

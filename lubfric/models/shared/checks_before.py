@@ -34,6 +34,7 @@ from .checks import (
 )
 from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS
 from .violation import Assumption, Violation
+from .wording import percent
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress. A choice:
 # more takes longer.
@@ -87,6 +88,11 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
         f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
         f"{_ways_to_interval(scene, sample)}"
     )
+
+
+def why_map_too_small(tolerance: float, times: float) -> str:
+    """Return that the map is too small for the sampling ``tolerance``, which needs so many ``times`` its area."""
+    return f"the map is too small for the requested {percent(tolerance)}, which needs about {float(f'{times:.2g}'):g} times its area"
 
 
 def why_too_few_blocks(

@@ -166,6 +166,14 @@ def strips_for_error(
     return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
+def area_needed(error: float, target: float, *, has_ended: bool) -> float:
+    """Return how many times the area of a surface brings a standard ``error`` on it within ``target``, as it falls with the
+    root of the area: 1 where it is within, or where the surface has not ended; NaN where the error is not known."""
+    if not has_ended:
+        return 1.0
+    return max((error / target) ** 2, 1.0) if math.isfinite(error) else math.nan
+
+
 def has_too_few_contacts(effective_contacts: float, reached: float, target: float) -> bool:
     """Return whether so few asperity contacts carry the load that an interval is too narrow more often than it says,
     and the standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
