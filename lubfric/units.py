@@ -154,6 +154,16 @@ def with_interval(value: float, low: float, high: float, level: str = " at 95 %"
     return f"{head} ({interval_in_words(low, high, unit, value)}{level})"
 
 
+def as_beside(part: float, value: float, low: float, high: float, unit: str) -> str:
+    """Return a ``part`` of a ``value`` with the unit and the decimals that `with_interval` shows of the value; a part smaller than half
+    the width of the interval, of which these may show no digit, as `plain_number`."""
+    if not _is_interval(low, high):
+        return plain_number(part, unit)
+    if abs(part) < 0.5 * (high - low):
+        return plain_number(part, unit, 2)
+    return _shown(value, low, high, unit, part)[-1]
+
+
 def interval_in_words(low: float, high: float, unit: str = "-", value: float = math.nan) -> str:
     """Return "0.0413 to 0.0473", as `with_interval` writes it around a ``value``."""
     if not (math.isfinite(low) and math.isfinite(high)):
@@ -180,14 +190,21 @@ def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
     return f"{text} {printed(name)}".rstrip()
 
 
+def in_unit_of(part: float, value: float, unit: str) -> str:
+    """Return a ``part`` of a ``value`` in the SI ``unit``, or its deviation, to two digits in the unit of people of the value."""
+    name = unit_for([value], unit)
+    number = converted(part, unit, name) if name != unit else part
+    return f"{plain_number(number, digits=2)} {printed(name)}".rstrip()
+
+
 def _is_interval(low: float, high: float) -> bool:
     return 0 < high - low < math.inf
 
 
-def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
+def _shown(value: float, low: float, high: float, unit: str, *others: float) -> list[str]:
     """Return the three numbers with as many decimals as show two digits of half the width of the interval, in one unit
-    of people or with one power of ten."""
-    numbers = [value, low, high]
+    of people or with one power of ten; and the ``others`` as these."""
+    numbers = [value, low, high, *others]
     largest = max(abs(number) for number in numbers if math.isfinite(number))
     name = unit_for([value if math.isfinite(value) and value else largest], unit)
     if name != unit:

@@ -6,7 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lubfric.units import interval_in_words, plain_number, unit_for, unit_of_largest, with_interval, worded
+from lubfric.units import (
+    as_beside,
+    in_unit_of,
+    interval_in_words,
+    plain_number,
+    unit_for,
+    unit_of_largest,
+    with_interval,
+    worded,
+)
 
 SIZES = st.floats(1e-9, 1e6) | st.floats(-1e6, -1e-9)
 
@@ -25,6 +34,26 @@ SIZES = st.floats(1e-9, 1e6) | st.floats(-1e6, -1e-9)
 )
 def test_a_value_with_its_interval(numbers, unit, text):
     assert with_interval(*numbers, unit=unit) == text
+
+
+@pytest.mark.parametrize(
+    "part, numbers, text",
+    [
+        (1.1649, (1.1651, 1.13, 1.20), "1.165 W"),
+        (0.25, (2.0, 1.9, 2.1), "0.25 W"),
+        (4.16, (10.8, 7.2, 16.1), "4.2 W"),
+        (0.0123, (1.1651, 1.13, 1.20), "12 mW"),
+        (0.2, (1.0, math.nan, math.nan), "200 mW"),
+    ],
+)
+def test_a_part_has_the_decimals_of_the_whole_unless_the_interval_is_wider(part, numbers, text):
+    assert as_beside(part, *numbers, unit="W") == text
+
+
+def test_a_deviation_is_in_the_unit_of_its_value():
+    assert in_unit_of(1.9e-4, 6.5e6, "Pa") == "1.9·10⁻¹⁰ MPa"
+    assert in_unit_of(2.13e5, 6.5e6, "Pa") == "0.21 MPa"
+    assert in_unit_of(0.013, 0.12, "-") == "0.013"
 
 
 @given(SIZES, st.floats(1e-9, 10.0), st.sampled_from(["-", "W", "m", "Pa", "m/s"]))

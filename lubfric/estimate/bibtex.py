@@ -60,7 +60,7 @@ def _field(source: dict[str, Any], name: str) -> str:
     """Return a field of an entry: pages with the dash of BibTeX, capitals of a title kept, authors joined by "and"."""
     value = source[name]
     if name == "author":
-        names = " and ".join(value)
+        names = " and ".join(value).replace("ø", r"{\o}")
         return f"{{{names}}}" if source["type"] in BY_ORGANISATION else names
     if name == "title":
         return re.sub(r"(?<!°)\b(\w*[A-Z][\w.-]*)", r"{\1}", value).replace("°C", "{$^\\circ$C}")

@@ -61,7 +61,7 @@ from ..time import (
     scene_at,
     speeds_of_run,
 )
-from ..units import converted, plain_number, worded
+from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
 
 # Speeds of many at which the work is counted, about. A choice: fewer take less time, and estimate worse.
@@ -145,7 +145,9 @@ def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
     rolling = point.power_loss - sliding
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         return ""
-    return f", of which {plain_number(rolling, 'W')} is rolling resistance"
+    return (
+        f", of which {as_beside(rolling, point.power_loss, *point.power_loss_interval, unit='W')} is rolling resistance"
+    )
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:

@@ -13,7 +13,7 @@ from .._base import __version__
 from ..models.shared import LARGE_NUMERICAL_ERROR, percent, sentence
 from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
-from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval
+from ..units import converted, in_unit_of, interval_in_words, plain_number, printed, unit_of_largest, with_interval
 from .inputs import INPUT_SECTIONS
 from .page import framed
 from .report import (
@@ -179,7 +179,7 @@ def _parameters_table(result: FitResult) -> str:
             "not known" if math.isnan(change) else percent(change),
             "-"
             if key in result.profiles or not move
-            else plain_number(float(move), unit if key != OIL_TEMPERATURE else "K", 2),
+            else in_unit_of(float(move), result.values[key], unit if key != OIL_TEMPERATURE else "K"),
         ]
         body = "".join(f'<td class="number">{escape(text)}</td>' for text in cells)
         parts = escape(key).replace(".", ".<wbr>").replace("_", "_<wbr>")  # a narrow column breaks the key there

@@ -845,6 +845,8 @@ def _moment_of_least_film(result: TransientResult) -> str:
     """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
     index = int(np.nanargmin(result.min_film))
     film = 1.0 - float(result.contact_load[index] / result.load[index])
+    if film <= 0.0:
+        return f"at t = {_moment(result, index)}, where asperities carry all of the load"
     others = " and asperities carry the rest" if film < 1.0 else ""
     return f"at t = {_moment(result, index)}, where it carries {100 * film:.3g} % of the load{others}"
 

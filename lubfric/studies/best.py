@@ -58,7 +58,7 @@ class BestDesign:
     condition : values [SI] of the operating keys there, by key; empty: over all conditions
     design : values [SI] of the design keys, by key
     value, interval : magnitude of the number there, and the ends of its 95 % interval (NaN: not known)
-    row : number of the point in study.csv, from 1; 0 over all conditions
+    row : number of the point in study.csv, from 1 as the tables count; None over all conditions
     rivals : the other designs that it cannot be distinguished from, the lowest first
     rival_rows : numbers of their points, in the same order; none over all conditions
     unknown_rivals : number of the rivals whose interval is not known
@@ -69,7 +69,7 @@ class BestDesign:
     design: dict[str, Any]
     value: float
     interval: tuple[float, float]
-    row: int
+    row: int | None
     rivals: tuple[dict[str, Any], ...]
     rival_rows: tuple[int, ...]
     unknown_rivals: int
@@ -163,7 +163,7 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
         design=names[lowest],
         value=float(means[lowest]),
         interval=_interval(mean_ends[:, lowest]),
-        row=0,
+        row=None,
         rivals=tuple(names[other] for other in others),
         rival_rows=(),
         unknown_rivals=int(np.isnan(mean_ends[0, others]).sum()),

@@ -50,7 +50,7 @@ def generate_surface(
     """Return a periodic random surface: a Gaussian one, white noise filtered with the root of the power spectrum, or a
     plateau-honed one.
 
-    Source: Y. Z. Hu, K. Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83-90, doi:10.1016/0890-6955(92)90064-N. The
+    Source: Y. Z. Hu, K. Tønder, Int. J. Mach. Tools Manufact. 32 (1992) 83-90, doi:10.1016/0890-6955(92)90064-N. The
     spectrum is the discrete transform of the autocorrelation summed over its periodic images. It is positive, and exact
     at the lags of the grid.
 
@@ -165,7 +165,7 @@ def surface_generator(
     def made(seed: int) -> Surface:
         heights = fft.irfft2(fft.rfft2(np.random.default_rng(seed).standard_normal(shape)) * amplitude, shape)
         heights = heights / heights.std() * sq
-        note = f"Hu-Tonder, {acf} ACF; a map of seed {seed}, scaled to Sq {worded(sq, 'm')}"
+        note = f"Hu-Tønder, {acf} ACF; a map of seed {seed}, scaled to Sq {worded(sq, 'm')}"
         notes = (note, *stated) if sq else (note,)
         return Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=notes)
 

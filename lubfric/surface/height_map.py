@@ -155,13 +155,21 @@ class Surface(FrozenArrays, Shown):
             note += f" and curvatures {curvatures[0]:.3e}, {curvatures[1]:.3e} 1/m"
         return self._with(self.heights - fitted, f"{note} removed")
 
-    def left_by(self) -> dict[str, float]:
+    def left_by(self, *, includes_outliers: bool = True) -> dict[str, float]:
         """Return Sq [m] that each form of `level` would leave, and that of the unchanged map (""). A form that the
-        points do not fix is omitted."""
-        left = {"": self.sq}
+        points do not fix is omitted.
+
+        ``includes_outliers``: False for the Sq without isolated points (`without_outliers`), behind which a form may
+        hide; with them where too few points are measured to find them.
+        """
+        surface = self
+        if not includes_outliers:
+            with suppress(InputError):
+                surface = self.level().without_outliers()
+        left = {"": surface.sq}
         for form in prepare.FORM_POWERS:
             with suppress(InputError):
-                left[form] = self.level(form).sq
+                left[form] = surface.level(form).sq
         return left
 
     def fill(self) -> Surface:

@@ -242,14 +242,16 @@ def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surfac
             flat = surface.level()
         check_slopes(flat)
     if level:
-        left = surface.left_by()
-        surface = surface.level(form)
+        raw = surface
+        left = raw.left_by()
+        surface = raw.level(form)
         check_slopes(surface)
         words = ", ".join(
             f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as measured'}" for name, sq in left.items()
         )
-        advised = advised_form(left)
-        if left[advised] < BETTER * left[form]:
+        of_waves = raw.left_by(includes_outliers=False)
+        advised = advised_form(of_waves)
+        if of_waves[advised] < BETTER * of_waves[form]:
             words += f"; if a form is left in the map, give form = {advised!r}"
         surface = replace(surface, notes=(*surface.notes, f"Sq {words}", *_unusual_height(surface.sq)))
     surface = surface.fill() if fill else surface

@@ -183,7 +183,7 @@ SHORTER_WAVES = "remove its form, as surface.level('quadratic'), or its long wav
 def correlation_length(surface: Surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
     """Return the first lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
 
-    decay_level: 1/e by default; 0.1 (Whitehouse and Archard; Hu and Tonder) or 0.2 (Sal, ISO 25178-2)
+    decay_level: 1/e by default; 0.1 (Whitehouse and Archard; Hu and Tønder) or 0.2 (Sal, ISO 25178-2)
     are in use too. Between two lags the logarithm of the correlation is linear. Raises `InputError`
     when it stays above the level up to half the map.
     """

@@ -228,6 +228,28 @@ def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
     assert curve.speed.tolist() == [0.05, 0.1]
 
 
+def test_reader_and_scene_advise_one_form_whatever_the_outliers(maps):
+    """A dome, ten times higher along x, under spikes: a cylinder leaves little more than a paraboloid until the spikes are masked."""
+    heights = np.load(maps / "long.npy")
+    x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
+    heights = heights - 4e-6 * x**2 - 1e-6 * y**2
+    heights[5::40, 5::40] += 2e-5
+    np.save(maps / "spiked.npy", heights)
+    assert read_note(maps / "spiked.npy").endswith("give form = 'quadratic'")
+    for outliers in ("mask", "keep"):
+        text = f"[surface]\nfile = 'spiked.npy'\nspacing = {GRID}\noutliers = {outliers!r}\n"
+        (advice,) = (
+            violation.recommendation
+            for violation in lubfric.prepare(loaded(maps, text)).violations
+            if violation.what.startswith("share of the form")
+        )
+        assert advice == "give surface.form = 'quadratic'", outliers
+
+
+def read_note(path):
+    return next(note for note in lubfric.read_surface(path, spacing=GRID).notes if note.startswith("Sq"))
+
+
 @pytest.mark.parametrize(
     "curved, key, advised",
     [

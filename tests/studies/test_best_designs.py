@@ -73,7 +73,7 @@ def test_the_mean_over_all_conditions_has_the_mean_of_the_intervals():
     mean = made(F, WIDTH).best_mean()
     means = F.mean(axis=(1, 3))
     (i, k) = np.unravel_index(means.argmin(), means.shape)
-    assert mean.design == {"surface.sq": SQ[i], "bodies.material": MATERIALS[k]}
+    assert mean.design == {"surface.sq": SQ[i], "bodies.material": MATERIALS[k]} and mean.row is None
     width = WIDTH.mean(axis=(1, 3))[i, k]
     assert mean.value == pytest.approx(means.min())
     assert mean.interval == pytest.approx((means.min() - width, means.min() + width))
@@ -257,7 +257,7 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
     changes = {}
     for number, scene in enumerate(plan.scenes, 1):
         point = lubfric.friction(scene, 2.0)
-        assert "lowest of measured oils" in point.not_in_interval
+        assert "the lowest of measured oils changes f by" in point.not_in_interval
         for effect in point.unmodelled_effects:
             for end in ("lowest", "highest"):
                 if f"the {end} of measured" in effect.what:

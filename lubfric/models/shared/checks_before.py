@@ -213,7 +213,7 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: 
         if not (has_given_map or file) or surface.sq == 0:
             continue
         left = surface.left_by()
-        form = advised_form(left)
+        form = advised_form(surface.left_by(includes_outliers=False))
         source = surface.source
         if rough is not None and file is not None:
             source = Path(file).name

@@ -238,8 +238,8 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
         return ""
     (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
     return (
-        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (lowest of measured oils: f "
-        f"{low}, highest: {high})"
+        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (the lowest of measured oils changes f by "
+        f"{low}, the highest by {high})"
     )
 
 
