@@ -56,9 +56,11 @@ def result_of(
     sampling = answer.errors.sampling_error.value
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     of_answer = [each for each in answer.violations if each.assumption != Assumption.LONG_SAMPLE or not is_sampled_well]
+    has_interval = math.isfinite(uncertainty.interval[0])
+    by_model = _violations_by_model_error(scene, answer, has_interval=has_interval)
     violations = (
         *of_answer,
-        *(beside_larger_part(each, uncertainty) for each in _violations_by_model_error(scene, answer)),
+        *(beside_larger_part(each, uncertainty) for each in by_model),
         *violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation),
     )
     why = [choice.why] if choice.why else []
@@ -97,14 +99,16 @@ def result_of(
     )
 
 
-def _violations_by_model_error(scene: Scene, answer: ModelAnswer) -> Iterator[Violation]:
-    """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it."""
+def _violations_by_model_error(scene: Scene, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:
+    """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it. ``has_interval``:
+    whether f has an interval."""
     if answer.accepts_model_error:
         return
     yield from violations_by_model_error(
         answer.errors.of_model_alone,
         tolerance=scene.numerics.model_tolerance,
         f=answer.numbers["coefficient"],
+        has_interval=has_interval,
         parts=[part for part in answer.errors.parts_of_model if not part.is_of_input],
     )
 

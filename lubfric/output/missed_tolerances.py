@@ -17,9 +17,6 @@ from ..models.shared import (
 )
 from ..scene import Scene
 
-# The model that accepts its model-form error where the scene names it (`lubfric.models.ModelAnswer.accepts_model_error`).
-ACCEPTING_MODEL = "paper"
-
 
 @dataclass(frozen=True, kw_only=True)
 class MissedTolerance:
@@ -58,8 +55,7 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
     """Yield the tolerances that points miss, by the ``columns`` of their errors, (n,), and the scene of each point, (n,).
 
     The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error counts without
-    that by an unknown limiting stress, and not where the scene names the model that accepts it. Where f is near 0, no relative error
-    counts.
+    that by an unknown limiting stress, of any model. Where f is near 0, no relative error counts.
     """
     unknown = np.full(len(scenes), np.nan)
 
@@ -77,7 +73,7 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
         SAMPLING_ERROR: (at_95 * column("sampling_error"), at_95 * of_sample),
         "model-form error of f": (
             np.sqrt(np.maximum(of_model, 0.0)),
-            np.array([np.inf if each.model == ACCEPTING_MODEL else each.model_tolerance for each in numerics]),
+            np.array([each.model_tolerance for each in numerics]),
         ),
     }
     for name, (error, limit) in errors.items():

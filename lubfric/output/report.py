@@ -13,6 +13,7 @@ from ..errors import InputError
 from ..estimate import PARTS, FrictionResult
 from ..models.deterministic import FLOOR
 from ..models.shared import (
+    ERROR_OF_ORDER_OF_MAGNITUDE,
     LARGE_NUMERICAL_ERROR,
     Assumption,
     ExpectedEffect,
@@ -257,14 +258,14 @@ def curve_status(scene: Scene, curve: CurveResult) -> str:
     total = len(curve.points)
     solved = total - len(curve.errors)
     if not curve.errors:
-        largely_inexact = _largely_inexact(curve)
         head = "The point is solved." if total == 1 else f"All {total} {plural} are solved."
-        if largely_inexact == 0:
+        if _largely_inexact(curve) == 0:
             head = f"Converged: {head[0].lower()}{head[1:]}"
         points = [point for point in curve.points if point is not None]
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
         sentences = shortfalls(_missed(scene, curve), unknown, total, lambda index: _place(curve, index))
-        return " ".join((*orders_of_magnitude(largely_inexact, total), head, *sentences))
+        errors = [point.uncertainty.numerical for point in points]
+        return " ".join((*orders_of_magnitude(errors), head, *sentences))
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]
@@ -284,14 +285,15 @@ def _largely_inexact(curve: CurveResult) -> int:
     )
 
 
-def orders_of_magnitude(count: int, total: int) -> list[str]:
-    """Return that at ``count`` of ``total`` solved points f is known to an order of magnitude only, in a sentence; none where
-    there are none."""
-    if count == 0:
+def orders_of_magnitude(errors: Iterable[float]) -> list[str]:
+    """Return at how many solved points, with these relative numerical ``errors`` of f, f is known to an order of magnitude only,
+    in a sentence; none where there are none."""
+    are_large = [error > ERROR_OF_ORDER_OF_MAGNITUDE for error in errors]
+    if not any(are_large):
         return []
-    where = "The" if total == 1 else f"At {count} of {total} points the"
+    where = "The" if len(are_large) == 1 else f"At {sum(are_large)} of {len(are_large)} points the"
     return [
-        f"{where} numerical error of f is above {percent(LARGE_NUMERICAL_ERROR)}, so f is only an order of magnitude (see the "
+        f"{where} numerical error of f is above {percent(ERROR_OF_ORDER_OF_MAGNITUDE)}, so f is only an order of magnitude (see the "
         "warnings)."
     ]
 

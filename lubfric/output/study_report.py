@@ -142,7 +142,7 @@ MOST_MEANS = 6
 CAPTION = "The results of the study"
 
 # Errors of f whose tolerances a list names the points of.
-OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR)
+OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR, Assumption.MODEL_FORM_ERROR)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -253,7 +253,7 @@ def warning_lines(result: StudyResult) -> list[str]:
 
 
 def tolerance_lines(result: StudyResult) -> list[str]:
-    """Return which points miss the tolerance of the numerical error, and which that of the sampling error."""
+    """Return which points miss the tolerance of the numerical error, of the sampling error, and of the model-form error."""
     lines = [
         each.text_without_head
         for each in result.gathered
@@ -354,9 +354,11 @@ def study_status(result: StudyResult) -> str:
     """Return in a sentence how many points of a study are solved, and the most frequent failures."""
     total = counted(result.solved, "points")
     if not result.failed:
-        head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
+        head = f"{'The point is' if result.solved == 1 else f'All {total} are'} solved."
+        if _largely_inexact(result) == 0:
+            head = f"Converged: {head[0].lower()}{head[1:]}"
         unknown = int(np.isnan(result["interval_low"][np.isfinite(result["coefficient"])]).sum())
-        warned = orders_of_magnitude(_largely_inexact(result), result.solved)
+        warned = orders_of_magnitude(result["numerical_error"].ravel().tolist())
         sentences = shortfalls(_missed(result), unknown, result.solved, lambda row: f"at point {row + 1}")
         return " ".join((*warned, head, *sentences))
     failed = Counter(result.failures)

@@ -80,7 +80,7 @@ def warnings_of(plan: Any) -> list[str]:
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
     """Return a sentence for each assumption that fails in ``violations`` (of each scene), with its smallest and largest
     value; ``plural``: the name of what there is one of for each of ``violations``."""
-    groups: dict[tuple[str, bool, bool, bool], dict[int, Violation]] = {}
+    groups: dict[tuple[str, str, bool, bool, bool], dict[int, Violation]] = {}
     for place, of_scene in enumerate(violations):
         for violation in of_scene:
             groups.setdefault(violation.kind, {})[place] = violation
@@ -93,8 +93,10 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
             {violation.consequence for violation in ordered},
             {violation.recommendation for violation in ordered},
         )
-        where = ("where it is largest" if len(differing) > 1 else "" for differing in texts)
-        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, *where)}")
+        worst = ordered[0 if ordered[0].is_below else -1]
+        end = "smallest" if worst.is_below else "largest"
+        where = (f"where it is {end}" if len(differing) > 1 else "" for differing in texts)
+        lines.append(f"{some}{worst.text_of(' to '.join(values) + worst.spaced_unit, *where)}")
     return lines
 
 

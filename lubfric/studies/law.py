@@ -269,7 +269,7 @@ def law_of(
 
 
 def _check_numerical_errors(curve: Interpolant) -> None:
-    """Raise `InputError` where f of a point of a ``curve`` is an order of magnitude."""
+    """Raise `InputError` where the numerical error of a point of a ``curve`` is large."""
     s = curve.samples
     worst = int(np.argmax(s.numerical))
     if s.numerical[worst] > LARGE_NUMERICAL_ERROR:

@@ -35,7 +35,9 @@ CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
 VIOLATIONS = "violations"
 MISSING = "not computed"
-ACCEPTED_MODEL_ERROR = "numerics.model_tolerance sets this limit; the interval of f includes the error"
+ACCEPTED_MODEL_ERROR = (
+    "numerics.model_tolerance sets this limit; the interval of f, where it is known, includes the error"
+)
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 
@@ -198,7 +200,10 @@ def _accepted_model_error(point: FrictionResult, numerics: Numerics) -> Iterator
         return
     is_named = numerics.model != "auto"
     for violation in violations_by_model_error(
-        point.uncertainty.model, tolerance=numerics.model_tolerance, f=point.coefficient
+        point.uncertainty.model,
+        tolerance=numerics.model_tolerance,
+        f=point.coefficient,
+        has_interval=math.isfinite(point.uncertainty.interval[0]),
     ):
         yield replace(
             violation,

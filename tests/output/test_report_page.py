@@ -16,7 +16,7 @@ from scipy.special import stdtrit
 
 import lubfric
 from lubfric.models.shared import checks
-from lubfric.output import main
+from lubfric.output import main, orders_of_magnitude
 from lubfric.output.missed_tolerances import MissedTolerance, missed_tolerances
 from lubfric.output.report import evenly_by_change, inputs_as_given, shortfalls
 
@@ -212,10 +212,10 @@ def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
 
 @pytest.mark.parametrize("command", ["run", "study"])
 @pytest.mark.parametrize("is_large", [True, False])
-def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_first(
+def test_a_status_over_a_large_numerical_error_has_its_own_colour_and_does_not_begin_with_converged(
     tmp_path, monkeypatch, command, is_large
 ):
-    """A warning with its own colour where a numerical error is large, here above any error or above none."""
+    """Here a large one is above any error or above none; none of them makes f an order of magnitude."""
     monkeypatch.setattr(checks, "LARGE_NUMERICAL_ERROR", 0.0 if is_large else 1.0)
     (tmp_path / "s.toml").write_text(
         re.sub("\ntolerance = .*", "\ntolerance = 1e-4\nfilm_tolerance = 0.03", SCENE + SMALL_PATCH)
@@ -226,10 +226,16 @@ def test_a_status_over_f_to_an_order_of_magnitude_is_a_warning_that_says_so_firs
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     ((kind, text),) = re.findall(r'<p class="status (\w*)" role="status">(.*?)</p>', page)
     assert kind == "inexact" and "numerics.tolerance" in text
-    first = "At 2 of 2 points the numerical error of f is above 20 %, so f is only an order of magnitude (see the warnings)."
-    solved = "Converged: all 2" if command == "study" else "All 2"
-    assert text.startswith(f"{first} {solved}" if is_large else "Converged: all 2")
+    assert text.startswith("All 2" if is_large else "Converged: all 2") and "order of magnitude" not in text
     assert ".status.inexact" in page
+
+
+def test_f_is_an_order_of_magnitude_from_a_numerical_error_of_half_of_it():
+    assert orders_of_magnitude([0.01, 0.22, 0.49]) == []
+    (text,) = orders_of_magnitude([0.01, 0.22, 0.6])
+    assert text.startswith(
+        "At 1 of 3 points the numerical error of f is above 50 %, so f is only an order of magnitude"
+    )
 
 
 def test_a_status_states_what_misses_its_target_and_what_has_no_interval():

@@ -64,11 +64,12 @@ def test_errors_of_an_f_near_zero_are_in_f_itself():
 
 
 def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
-    (relative,) = violations_by_model_error(0.2, tolerance=0.05, f=0.04)
-    assert "is 20 %, above 5 %" in relative.text
-    (itself,) = violations_by_model_error(88.0, tolerance=0.05, f=-1e-5)
+    (relative,) = violations_by_model_error(0.2, tolerance=0.05, f=0.04, has_interval=True)
+    assert "is 20 %, above 5 %" in relative.text and relative.recommendation == "use f with its interval"
+    (itself,) = violations_by_model_error(88.0, tolerance=0.05, f=-1e-5, has_interval=False)
     assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
-    assert not list(violations_by_model_error(0.04, tolerance=0.05, f=1e-5))
+    assert not itself.recommendation  # f has no interval
+    assert not list(violations_by_model_error(0.04, tolerance=0.05, f=1e-5, has_interval=True))
 
 
 def test_values_on_both_sides_of_a_range_are_two_sentences():

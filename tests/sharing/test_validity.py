@@ -274,6 +274,46 @@ def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text
 
 
+def test_a_pressure_at_which_no_oil_is_liquid_is_apart_from_one_above_the_viscosity_law():
+    """Of the made pressures 3 GPa is three times its limit and 12 GPa a fifth above its own, which is the stronger one."""
+    elastic = PAPER.with_(bodies={"hertz_pressure": 0.5e9, "hardness": None})
+    at = [
+        (u, tuple(violations_by_pressure(elastic, p, "of one film")))
+        for u, p in ((0.05, 3e9), (0.1, 12.5e9), (0.2, 12e9))
+    ]
+    for found in gathered_on_curve(at), gathered_in_table([violations for _, violations in at]):
+        (extrapolated, not_liquid) = sorted((each.text for each in found), key=lambda text: "above 10 GPa" in text)
+        assert "3 GPa, above 1 GPa. The viscosity law" in extrapolated and "12.5 GPa" in not_liquid
+        assert "above 10 GPa. No oil is liquid at this pressure, so the viscosity has no meaning there" in not_liquid
+        assert "f has no meaning" not in not_liquid and "extrapolated" not in not_liquid
+
+
+@pytest.mark.parametrize("hardness, recommendation", [(None, "give bodies.hardness"), (8e9, "check the heights")])
+def test_asperities_that_press_the_film_beyond_any_liquid_are_not_answered_by_the_load(hardness, recommendation):
+    """The Hertz pressure is below the limit: another load would change little."""
+    scene = PAPER.with_(bodies={"hertz_pressure": 0.5e9, "hardness": hardness})
+    (local,) = violations_by_pressure(scene, 12e9, "of one film")
+    assert not local.severe and not local.is_note
+    assert recommendation in local.recommendation and "bodies.load" not in local.recommendation
+    limited = scene.with_(lubricant={"limiting_stress_coefficient": 0.05})
+    (bounded,) = violations_by_pressure(limited, 12e9, "of one film")
+    assert "the limiting stress bounds the friction of the film" in bounded.consequence and not bounded.is_note
+    (smooth,) = violations_by_pressure(scene, 12e9)
+    assert smooth.severe and "f has no meaning" in smooth.consequence and "bodies.load" in smooth.recommendation
+
+
+@pytest.mark.parametrize("values, limits, worst", [((3.0, 12.0), (1.0, 10.0), 12.0), ((0.5, 0.2), (5.0, 0.3), 0.2)])
+def test_a_warning_with_several_limits_takes_the_words_of_its_largest_value(values, limits, worst):
+    """Below a limit that is the smallest value."""
+    made = [
+        (replace(entry(value), limit=limit, consequence=f"it takes {value} s"),) for value, limit in zip(values, limits)
+    ]
+    (on_curve,) = gathered_on_curve(list(enumerate(made)))
+    (in_table,) = gathered_in_table(made)
+    assert on_curve.violation.value == in_table.violation.value == worst
+    assert f"it takes {worst} s" in on_curve.text and f"it takes {worst} s" in in_table.text
+
+
 def test_notes_are_apart_from_warnings():
     """A note is named as one, counted apart, and does not hide in the sentence of a warning on the same quantity."""
     note = Violation(
@@ -300,8 +340,9 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     fast = lubfric.friction(scene, 1.0)
     kinds = {violation.assumption: violation.is_note for violation in fast.validity}
     assert kinds[Assumption.NUMERICAL_ERROR] is True and kinds[Assumption.HEAT_INCLUDED] is False
-    (large,) = violations_by_numerical_error(0.3, 0.01, "")
-    assert not large.is_note and "order of magnitude" in large.consequence
+    for error, is_magnitude in (0.22, False), (0.49, False), (0.6, True):
+        (large,) = violations_by_numerical_error(error, 0.01, "")
+        assert not large.is_note and ("order of magnitude" in large.consequence) == is_magnitude
     assert fast.not_in_interval.startswith(
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )

@@ -151,7 +151,7 @@ def test_what_it_cannot_hold_is_refused(study):
 
 
 def test_a_law_states_the_errors_of_its_points_and_refuses_points_without_a_digit():
-    """The mean of 40 % below f and 20 % above it is 30 %; a numerical error of 30 % is an order of magnitude."""
+    """The mean of 40 % below f and 20 % above it is 30 %; a numerical error of 30 % is too large."""
     curve = lubfric.stribeck(SCENE, np.geomspace(0.02, 3.0, 8))
 
     def with_errors(point, numerical):

@@ -436,6 +436,8 @@ def test_console_report_and_table_count_the_same_warnings_and_notes(tmp_path, mo
     (head, *_) = study_report.warning_lines(result) or ["warnings at 0 of 6 points; "]
     page = study_report.study_page(result, {}, []).decode()
     assert counts in head and warnings == result.with_warnings
+    assert ("model-form error of f is above its tolerance" in study_report.study_status(result)) == above.any()
+    assert any("model-form" in line for line in study_report.tolerance_lines(result)) == above.any()
     assert (counts in page) == bool(warnings or notes)
 
 

@@ -6,6 +6,7 @@ and `deterministic` do not import each other, `quick` imports both, and all impo
 """
 
 from .checks import (
+    ERROR_OF_ORDER_OF_MAGNITUDE,
     LARGE_NUMERICAL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,

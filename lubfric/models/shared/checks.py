@@ -45,6 +45,9 @@ ROELANDS_LIMIT = 1e9
 # decides a warning, no number.
 BARUS_LIMIT = 3e8
 
+# Pressure [Pa] above which a viscosity law is extrapolated, of the laws that have one.
+OF_VISCOSITY_LAW = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}
+
 # Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice:
 # less warns of more films.
 THICK_FILM = 0.1
@@ -72,9 +75,13 @@ ON_ENDS = 0.01
 NUMERICAL_ERROR = "estimated numerical error of f"
 SAMPLING_ERROR = "sampling error of f at 95 %"
 
-# Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: an
-# extrapolation from grid to grid is no more than an order of magnitude there.
+# Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: no
+# formula is fitted to such points.
 LARGE_NUMERICAL_ERROR = 0.2
+
+# Numerical error of f, relative, from which on f is only an order of magnitude [-]. A convention: f may be half as large,
+# or half as large again.
+ERROR_OF_ORDER_OF_MAGNITUDE = 0.5
 
 # Digits of a slip in percent that a user writes, at most: a ratio that follows from two speeds has more. A choice.
 DIGITS_OF_SLIP = 2
@@ -160,45 +167,95 @@ def peak_hertz_pressure(scene: Scene) -> float:
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
-def violations_by_pressure(scene: Scene, peak: float, place: str = "of the smooth film") -> Iterator[Violation]:
-    """Yield the violations by the highest film pressure ``peak`` [Pa]; ``place``: where it is, if it is a local one."""
-    law = scene.lubricant.viscosity_law
-    hertz_peak = peak_hertz_pressure(scene)
-    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
-    consequence = f"the viscosity law ({law}) is extrapolated there"
-    is_local = peak > SPIKE * hertz_peak
-    is_limited = scene.lubricant.limit is not None or scene.lubricant.is_limited_by_boundary_friction
-    recommendation = (
-        ""
-        if is_limited
-        else "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
-    )
-    severe = peak > NO_LIQUID
-    if severe:
-        limit = NO_LIQUID
-        consequence = "no oil is liquid at this pressure, so f has no meaning"
-        recommendation = "check bodies.load"
-    if not peak > limit:
-        return
-    if is_local:
-        consequence += f"; this is a local peak {place}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
-    if is_limited and not severe:
-        consequence += "; the limiting stress bounds the friction of the film"
-    if scene.lubricant.density_law == "constant" and hertz_peak < limit:
-        consequence += "; a constant density causes such a spike"
-        more = f"; {recommendation}" if recommendation else ""
-        recommendation = f"give lubricant.density_law = 'dowson-higginson', which lowers the peak{more}"
-    yield Violation(
-        assumption=Assumption.PRESSURE_OF_VISCOSITY_LAW,
-        what="highest local film pressure" if is_local else "peak film pressure",
+def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterator[Violation]:
+    """Yield the violation by the highest film pressure ``peak`` [Pa]. ``place``: of a rough film, where that is, as text; "": the
+    film is smooth.
+
+    No oil is liquid above 10 GPa. This is severe where the film is smooth or the peak Hertz pressure is above it, and a warning
+    where asperities that do not yield press the film that much.
+    """
+    limit = OF_VISCOSITY_LAW.get(scene.lubricant.viscosity_law, math.inf)
+    if peak > NO_LIQUID and place and peak_hertz_pressure(scene) <= NO_LIQUID:
+        yield _violation_between_asperities(scene, peak, place)
+    elif peak > NO_LIQUID:
+        (facts, advice) = _spike(scene, peak, NO_LIQUID, place)
+        yield Violation(
+            assumption=Assumption.LIQUID_OIL,
+            what=_name_of_peak(scene, peak),
+            value=peak / 1e9,
+            limit=NO_LIQUID / 1e9,
+            unit="GPa",
+            consequence="; ".join(("no oil is liquid at this pressure, so f has no meaning", *facts)),
+            recommendation="; ".join((*advice, "check bodies.load")),
+            severe=True,
+        )
+    elif peak > limit:
+        (facts, advice) = _spike(scene, peak, limit, place)
+        (bounds, more) = _bounds_of_stress(scene)
+        extrapolated = f"the viscosity law ({scene.lubricant.viscosity_law}) is extrapolated there"
+        yield Violation(
+            assumption=Assumption.PRESSURE_OF_VISCOSITY_LAW,
+            what=_name_of_peak(scene, peak),
+            value=peak / 1e9,
+            limit=limit / 1e9,
+            unit="GPa",
+            consequence="; ".join((extrapolated, *facts, *bounds)),
+            recommendation="; ".join((*advice, *more)),
+            is_note=not more,
+        )
+
+
+def _violation_between_asperities(scene: Scene, peak: float, place: str) -> Violation:
+    """Return the warning that asperities press the film to a ``peak`` pressure [Pa] at which no oil is liquid."""
+    (facts, advice) = _spike(scene, peak, NO_LIQUID, place)
+    (bounds, more) = _bounds_of_stress(scene)
+    if more and scene.lubricant.has_unlimited_stress:
+        bounds = ["f_b times the pressure bounds the shear stress of the film"]
+    if scene.bodies.hardness is None:
+        advice.append("give bodies.hardness, because elastic asperities cause this pressure")
+    else:
+        advice.append("check the heights and the spacing of [surface], and bodies.hardness")
+    return Violation(
+        assumption=Assumption.LIQUID_OIL,
+        what=_name_of_peak(scene, peak),
         value=peak / 1e9,
-        limit=limit / 1e9,
+        limit=NO_LIQUID / 1e9,
         unit="GPa",
-        consequence=consequence,
-        recommendation=recommendation,
-        severe=severe,
-        is_note=is_limited and not severe,
+        consequence="; ".join(
+            ("no oil is liquid at this pressure, so the viscosity has no meaning there", *facts, *bounds)
+        ),
+        recommendation="; ".join((*advice, *more)),
     )
+
+
+def _name_of_peak(scene: Scene, peak: float) -> str:
+    """Return what a ``peak`` pressure [Pa] of the film is called: a local one is above the peak Hertz pressure."""
+    is_local = peak > SPIKE * peak_hertz_pressure(scene)
+    return "highest local film pressure" if is_local else "peak film pressure"
+
+
+def _spike(scene: Scene, peak: float, limit: float, place: str) -> tuple[list[str], list[str]]:
+    """Return where a ``peak`` pressure [Pa] of the film above its ``limit`` [Pa] is and what causes it, and what lowers it, as
+    texts."""
+    facts = []
+    advice = []
+    hertz_peak = peak_hertz_pressure(scene)
+    if peak > SPIKE * hertz_peak:
+        where = place or "of the smooth film"
+        facts.append(f"this is a local peak {where}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa")
+    if scene.lubricant.density_law == "constant" and hertz_peak < limit:
+        facts.append("a constant density causes such a spike")
+        advice.append("give lubricant.density_law = 'dowson-higginson', which lowers the peak")
+    return facts, advice
+
+
+def _bounds_of_stress(scene: Scene) -> tuple[list[str], list[str]]:
+    """Return that the limiting stress bounds the friction of the film, or else that this is to be given, as texts."""
+    if scene.lubricant.limit is not None or scene.lubricant.is_limited_by_boundary_friction:
+        return ["the limiting stress bounds the friction of the film"], []
+    return [], [
+        "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
+    ]
 
 
 def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
@@ -437,15 +494,14 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): an
     interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
     if error is not None and error > tolerance:
-        is_large = error > LARGE_NUMERICAL_ERROR
-        if is_large:
+        if error > ERROR_OF_ORDER_OF_MAGNITUDE:
             why = "the error is so large that f is only an order of magnitude"
         else:
             why = "numerics.tolerance sets this limit; the interval of f, where it is known, includes the error"
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,
-            is_note=not is_large,
+            is_note=not error > LARGE_NUMERICAL_ERROR,
             value=100 * error,
             limit=100 * tolerance,
             unit="%",

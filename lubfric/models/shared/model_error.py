@@ -14,7 +14,7 @@ BY_HEAT = "heat (half of its effect counts as error)"
 REDUCED_BY_DETERMINISTIC = "set numerics.model = 'deterministic' to reduce it"
 REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
 LARGEST_PART = "its largest part is {}"
-IN_INTERVAL = "the interval of f includes it"
+IN_INTERVAL = "the interval of f, where it is known, includes it"
 READ_INTERVAL = "use f with its interval"
 OTHER_PARTS = "{}; without that part the model-form error is {}"
 
@@ -58,11 +58,11 @@ def sides_of_parts(parts: Sequence[ModelErrorPart]) -> Sides:
 
 
 def violations_by_model_error(
-    error: float, *, tolerance: float, f: float, parts: Sequence[ModelErrorPart] = ()
+    error: float, *, tolerance: float, f: float, has_interval: bool, parts: Sequence[ModelErrorPart] = ()
 ) -> Iterator[Violation]:
     """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``.
 
-    Where f is near 0, the warning states the error in f itself.
+    Where f is near 0, the warning states the error in f itself. ``has_interval``: whether f has an interval, which includes the error.
     """
     if not error > tolerance:
         return
@@ -80,6 +80,6 @@ def violations_by_model_error(
         limit=unit * tolerance,
         unit="%" if is_relative else "",
         consequence=LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL,
-        recommendation=recommendation or READ_INTERVAL,
+        recommendation=recommendation or (READ_INTERVAL if has_interval else ""),
         effect=error,
     )

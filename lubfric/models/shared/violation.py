@@ -14,6 +14,8 @@ from .wording import distinct_texts
 
 # A place of a point: its number, or its value on a curve.
 Place = TypeVar("Place", int, float)
+# What one sentence may report together: assumption, quantity, whether it is severe, a note, above its limit.
+Kind = tuple[str, str, bool, bool, bool]
 
 # What begins the last sentence of the text of a violation.
 RECOMMENDATION = " Recommendation"
@@ -54,6 +56,7 @@ class Assumption(StrEnum):
     FLOODED_INLET = "flooded inlet"
     LONG_INLET = "inlet long enough"
     PRESSURE_OF_VISCOSITY_LAW = "pressure in the range of the viscosity law"
+    LIQUID_OIL = "lubricant that is liquid at its pressure"
     STRESS_OF_OILS = "shear stress that oils carry"
     STRESS_OF_OILS_UNDER_TOTAL_LOAD = "shear stress that oils carry, if the film carries the total load"
     FRICTION_OF_FILMS = "friction that films reach"
@@ -118,10 +121,10 @@ class Violation(Renamed):
         return self.text_of(f"{self.value_in_words}{self.spaced_unit}")
 
     @property
-    def kind(self) -> tuple[str, bool, bool, bool]:
-        """What violations have in common that one sentence may report together: the quantity, whether they are severe,
-        or notes, and on which side of the limit they are."""
-        return self.what, self.severe, self.is_note, self.value > self.limit
+    def kind(self) -> Kind:
+        """What violations have in common that one sentence may report together: the assumption, the quantity, whether they are
+        severe, or notes, and on which side of the limit they are."""
+        return self.assumption, self.what, self.severe, self.is_note, self.value > self.limit
 
     @property
     def is_below(self) -> bool:
@@ -221,7 +224,7 @@ def gathered_on_curve(
     """
     lines = []
     for group in sorted(_groups(points), key=lambda pairs: _rank([violation for _, violation in pairs])):
-        (_, worst) = max(group, key=lambda pair: _distance(pair[1]))
+        (_, worst) = max(group, key=lambda pair: -pair[1].value if pair[1].is_below else pair[1].value)
         alike = _alike(group, worst)
         places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
         place = at_values(sorted(value for value, _ in group), unit, name)
@@ -232,7 +235,7 @@ def gathered_on_curve(
 
 def _groups(points: Iterable[tuple[Place, Iterable[Violation]]]) -> list[list[tuple[Place, Violation]]]:
     """Return the violations of ``points``, pairs (place, violations there), in groups of one `Violation.kind`."""
-    groups: dict[tuple[str, bool, bool, bool], list[tuple[Place, Violation]]] = {}
+    groups: dict[Kind, list[tuple[Place, Violation]]] = {}
     for place, violations in points:
         for violation in violations:
             groups.setdefault(violation.kind, []).append((place, violation))
@@ -390,11 +393,3 @@ def at_values(values: Sequence[float], unit: str, name: str) -> str:
         return at_value(values[0], unit, name)
     between = "and" if len(values) == 2 else "to"
     return f"at {len(values)} {name}, {f'{min(values):.4g} {between} {max(values):.4g} {unit}'.rstrip()}"
-
-
-def _distance(violation: Violation) -> float:
-    """Return the ratio by which the value is beyond its limit."""
-    if violation.limit == 0 or violation.value == 0:
-        return abs(violation.value - violation.limit)
-    ratio = abs(violation.value / violation.limit)
-    return max(ratio, 1 / ratio)
