@@ -419,6 +419,6 @@ def _window_starts(
         if len(starts) >= ENOUGH_WINDOWS:
             return starts
     overhang = min(max(0, math.floor(0.5 * columns - half_width / dx)), surface.shape[0])
-    if columns > columns_of_map + 2 * overhang:  # the Hertz strip is longer than the map
-        return [(surface.shape[0] - columns) // 2]
+    if columns > columns_of_map + 2 * overhang:  # the Hertz strip is longer than the map, whose middle is under its own
+        return [(columns_of_map - columns) // 2]
     return starts_of(columns_of_map, columns, step, overhang)

@@ -456,3 +456,16 @@ def test_the_sq_of_a_strip_is_stated_beside_that_of_its_map_with_what_sampling_e
     assert warning.text.startswith("warning: difference of Sq between the strips that are solved first and the map is ")
     assert "smoother than the map" in warning.text
     assert any(line.startswith("Sq of the strips is ") and "below" in line for line in sample.described(smooth))
+
+
+def test_the_middle_of_a_mirrored_map_is_under_that_of_the_strip(maps):
+    """Its seams lie at both sides: the measured piece of 12 columns carries the load in the middle, not its edge twice."""
+    given = f"[surface]\nfile = 'short.npy'\nspacing = {GRID}\nextension = 'mirror'\n"
+    sample = lubfric.prepare(loaded(maps, given)).sample
+    assert sample.cells.coarsening[1] == 1 and sample.available_strips == 1
+    step = sample.cells.coarsening[0]
+    heights = sample.strip(0).heights
+    measured = np.load(maps / "short.npy")[step // 2 :: step]
+    before = (heights.shape[0] - measured.shape[0]) // 2
+    middle = heights[before : before + measured.shape[0], 20:40]
+    assert np.corrcoef(middle.ravel(), measured[:, 20:40].ravel())[0, 1] > 0.98
