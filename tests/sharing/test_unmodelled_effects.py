@@ -115,7 +115,7 @@ def test_what_is_given_and_what_is_below_the_tolerance_is_not_reported():
 
 
 def test_info_shows_the_range_of_each_effect():
-    effects = expected_effects(ROLLER, SQ, 1.0)
+    effects = expected_effects(ROLLER, SQ, 1.0, includes_motion=False)  # by load sharing
     text = describe_scene(ROLLER)
     assert not any(effect.low > effect.high for effect in effects)
     for effect in (each for each in effects if not each.end_of_alpha):
@@ -201,3 +201,14 @@ def test_the_correlation_length_of_a_measured_map_is_no_effect(tmp_path):
     measured = ROLLER.with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 4e-6, "unit": "m"})
     effects = unmodelled_effects(measured, SQ, 1.0, (0.06, 0.08))
     assert effects and not any("correlation length" in effect.what for effect in effects)
+
+
+def test_a_thinner_film_moves_load_to_asperities_as_solved_contacts_show():
+    """In mixed lubrication f of the quick model rises where the film is thinner, as solved again; by load sharing it rises by less."""
+    scene = ROLLER.with_(numerics={"model": "quick", "sampling": None})
+    at = scene.line_contact(1.0).moes_film / SQ
+    speed = (0.6 / at) ** 1.5  # a lambda ratio of some 0.6
+    result = lubfric.friction(scene, speed)
+    assert 0.3 < result.contact_load / 2000.0 < 0.95
+    smoother = lubfric.friction(scene.with_(surface={"sq": 0.6 * SQ}), speed).coefficient / result.coefficient - 1
+    assert 0.4 < told(result.unmodelled_effects, "running-in") / smoother < 2.5

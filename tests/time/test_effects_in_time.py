@@ -84,6 +84,7 @@ def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():
             abs(run.entrainment_speed[i]),
             (abs(run.boundary_force[i] / run.load[i]), f),
             run=RUN,
+            includes_motion=False,
         )
         for each in effects:
             largest[each.what] = max(largest.get(each.what, 0.0), abs(each.change) * f)

@@ -5,7 +5,8 @@ f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the lo
 of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the total load
 over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
 under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
-known, s and mu are scaled to what it has. Before there is one, both have a range (`POWERS`, `SHEARS`), and so has the
+known, mu is scaled to what it has; s follows Aihara's law from what it has by load sharing, and by models of the resolved gap
+s/(1 - s) follows a power of λ that solved contacts show. Before there is one, both have a range (`POWERS`, `SHEARS`), and so has the
 change of f: it holds that of the result by any model.
 """
 
@@ -36,6 +37,16 @@ WARMER = 10.0
 
 # f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
+
+# Aihara's law of the asperity load ratio: exp(-`AIHARA_FACTOR` λ^`AIHARA_POWER`). As printed by the sources of docs/theory.md.
+AIHARA_FACTOR = 1.8
+AIHARA_POWER = 1.2
+
+# Power of λ with which the load on asperities over that on the film changes, where roughness rests and where it moves [-]. Fitted
+# with the pressure-viscosity coefficient times the pressure to 237 and 209 contacts solved by the deterministic model
+# (verification.campaigns.calibration): -3.47 ± .17 and -2.72 ± .15.
+LOAD_RATIO_AT_REST = -3.5
+LOAD_RATIO_IN_MOTION = -2.7
 
 # Mean gap of a contact that carries most of the load [Sq], about: measured 1.67 in the scene "paper" at 1 mm/s.
 GAP_IN_CONTACT = 1.6
@@ -347,10 +358,14 @@ def _of_film(
     is_narrow = line.expected_film * 2 * line.radius > line.half_width**2
     is_of_film = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
 
+    by_film: float | None = None  # load sharing follows Aihara's law
+    if includes_motion:
+        by_film = LOAD_RATIO_IN_MOTION if has_moving_roughness(scene) else LOAD_RATIO_AT_REST
+
     def change(other: Scene, rough: float, times: float = 1.0) -> float:
         after = _parts(other, rough, speed, times)
         if friction_parts is not None:
-            after = _scaled(of_rubbing, before, after, friction_parts)
+            after = _scaled(of_rubbing, before, after, friction_parts, by_film=by_film)
         return after[1] / (friction_parts or before)[1] - 1
 
     effects: list[UnmodelledEffect] = []
@@ -441,18 +456,27 @@ def _ends_of_alpha(scene: Scene) -> dict[str, float]:
 
 
 def _scaled(
-    f_b: float, before: tuple[float, float], after: tuple[float, float], friction_parts: tuple[float, float]
+    f_b: float,
+    before: tuple[float, float],
+    after: tuple[float, float],
+    friction_parts: tuple[float, float],
+    *,
+    by_film: float | None,
 ) -> tuple[float, float]:
-    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: λ that gives the
-    share there, and mu in proportion."""
+    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: the share by Aihara's
+    law with the λ that gives it there, or s/(1 - s) by the power ``by_film`` of λ; and mu in proportion."""
     if not f_b:
         return 0.0, after[1] / before[1] * friction_parts[1]
     shares = [
         min(max(parts[0] / f_b, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE)
         for parts in (before, after, friction_parts)
     ]
-    guessed, changed, there = (math.log(1 / share) for share in shares)
+    (guessed, changed, there) = (math.log(1 / share) for share in shares)
     share = math.exp(-there * changed / guessed)
+    if by_film is not None:
+        log_of_film = math.log(changed / guessed) / AIHARA_POWER
+        log_load_ratio = math.log(shares[2] / (1 - shares[2])) + by_film * log_of_film
+        share = 1.0 / (1.0 + math.exp(-log_load_ratio))
     shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, friction_parts), shares)]
     shear = shears[2] * shears[1] / shears[0] if shears[0] else 0.0
     return f_b * share, f_b * share + shear * (1 - share)
@@ -469,7 +493,7 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
     line = scene.line_contact(speed)
     thickness = times * line.expected_film
     b = line.half_width
-    share = math.exp(-1.8 * (thickness / sq) ** 1.2) if sq > 0 else 0.0
+    share = math.exp(-AIHARA_FACTOR * (thickness / sq) ** AIHARA_POWER) if sq > 0 else 0.0
     rise = math.sqrt(2 * line.radius * thickness)
     begins = b + UPSTREAM * rise
     if times < 1:
