@@ -351,6 +351,19 @@ def test_a_patch_has_one_answer_by_whatever_name_and_goes_to_its_own_cells():
     assert loose.deterministic.pressure.shape[1] < own.pressure.shape[1]
 
 
+def test_a_patch_divides_load_and_friction_as_its_shortest_cells_do():
+    """Solved by hand on the map's own cells, where asperities carry nearly all: on longer ones the rolling part is another, and
+    what it leaves of f to the sliding film may be of the other sign."""
+    patch = PATCH.with_(contact={"shape": (80, 64), "spacing": 1.2e-6}, numerics={"tolerance": 1e-4})
+    for speed in (3e-4, 0.003):
+        point = lubfric.friction(patch, speed, model="deterministic")
+        own = solve_strip(patch, lubfric.prepare(patch).surface, speed).result
+        width = patch.bodies.width
+        assert point.contact_load == pytest.approx(own.split.rubbing * width, rel=3e-3)
+        assert point.boundary_force == pytest.approx(own.boundary * width, rel=3e-3)
+        assert point.rolling_force == pytest.approx(own.rolling * width, rel=3e-3)
+
+
 def test_a_limit_of_zero_at_ambient_pressure_is_left_to_eq_8():
     oil = {"limiting_stress_coefficient": 0.045, "limiting_stress_offset": 0.0}
     result = lubfric.friction(SCENE.with_(lubricant=oil), 0.01)

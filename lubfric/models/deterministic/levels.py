@@ -292,10 +292,14 @@ def levels_of(
     results = [pair.resolved.result for pair in pairs]
     rolling = mean(result.rolling for result in results) * prepared.scene.bodies.width
     as_expected = changed_as_expected(estimate.numbers, shorter.change, rolling)
-    of_third_level = [(piece.on_cells_of_strips, piece.on_shortest_cells) for piece in shorter.pieces]
-    third = changed_by_pieces(prepared, as_expected, of_third_level)
-    fourth = changed_by_pieces(prepared, third, [shorter.shortest.from_half_cells] if shorter.shortest else [])
-    numbers = with_divided_contact_load(prepared.scene, fourth, results)
+    last = None if estimate.control_strips else shorter.all_of_sample(pairs)
+    if last is None:
+        of_third_level = [(piece.on_cells_of_strips, piece.on_shortest_cells) for piece in shorter.pieces]
+        third = changed_by_pieces(prepared, as_expected, of_third_level)
+        fourth = changed_by_pieces(prepared, third, [shorter.shortest.from_half_cells] if shorter.shortest else [])
+        numbers = with_divided_contact_load(prepared.scene, fourth, results)
+    else:
+        numbers = numbers_of_strip(prepared, last.result)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error_of_f, replace(shorter.sampling_error, value=shorter.sampling_error.value * f))
     of_difference = math.sqrt(estimate.left_to_control) * estimate.difference_error_of_f.value

@@ -198,6 +198,16 @@ class ShorterCells:
     has_too_many: bool = False
     has_ended: bool = False
 
+    def all_of_sample(self, pairs: Sequence[StripOnTwoGrids]) -> StripSolution | None:
+        """Return the only one of ``pairs`` on its shortest cells, if it is itself the only piece, at its own speed: all numbers
+        of the sample are then those of this solution. None where pieces are other parts of the surface, or there are none."""
+        if len(pairs) != 1 or len(self.pieces) != 1:
+            return None
+        last = self.shortest or self.pieces[0]
+        first = pairs[0].resolved.result
+        is_strip = all(piece.on_cells_of_strips.result is first for piece in (*self.pieces, last))
+        return last.on_shortest_cells if is_strip else None
+
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
 NO_SHORTER_CELLS = ShorterCells(error=LEAST_STRIP_ERROR)
