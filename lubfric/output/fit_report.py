@@ -34,6 +34,9 @@ FIT_CAPTION = "Measured points and the fitted curve, and below the deviations of
 # What a measured Stribeck curve replaces.
 MEASURED_SPEEDS = " The measured speeds take the place of those of the scene."
 
+# What the status says of a pressure-viscosity coefficient that is neither given nor fitted.
+ALPHA_IS_ESTIMATE = " The pressure-viscosity coefficient is an estimate, and its error, which the fitted parameters have too, is in no interval."
+
 # What f is beside the measured points.
 OF_POINTS = (
     "Measured f, fitted f with the 95 % interval that follows from those of the parameters, and the deviation of the measured f "
@@ -97,10 +100,11 @@ def fit_page(
 def fit_status(result: FitResult) -> tuple[str, str]:
     """Return the kind of the status of a fit (`status_kind`), and the status in sentences."""
     undetermined = [_label(key) for key in result.undetermined]
+    by_alpha = ALPHA_IS_ESTIMATE if result.error_of_alpha else ""
     if not result.report.converged:
         return "failed", "Not complete: the trust region did not end."
     if not result.describes_data:
-        return "failed", f"The fit converged, but does not describe the data: {_why_not(result)}."
+        return "failed", f"The fit converged, but does not describe the data: {_why_not(result)}.{by_alpha}"
     head = "Converged: the fit describes the data."
     if result.tests is not None and result.tests.doubtful:
         head = "Converged: the fit may describe the data, but the residuals may be systematic."
@@ -113,7 +117,7 @@ def fit_status(result: FitResult) -> tuple[str, str]:
     is_inexact = bool(known.size) and float(known.max()) > LARGE_NUMERICAL_ERROR
     if is_inexact:
         head += f" The model-form error of f, up to {percent(float(known.max()))}, is in no interval of a parameter."
-    return status_kind(failed=False, inexact=is_inexact), head
+    return status_kind(failed=False, inexact=is_inexact), f"{head}{by_alpha}"
 
 
 def _why_not(result: FitResult) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import FrictionResult, cite_together
-from ..models.shared import GatheredTexts, Violation, gathered_on_curve, percent, student
+from ..models.shared import GatheredTexts, Violation, alpha_of_fit_in_words, gathered_on_curve, percent, student
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests
@@ -263,7 +263,13 @@ class FitResult(Renamed, Shown):
     @property
     def not_in_intervals(self) -> tuple[str, ...]:
         """What the intervals of the parameters do not include, one text each."""
-        return tuple(filter(None, (self._model_note(), self._surface_note())))
+        return tuple(filter(None, (self.error_of_alpha, self._model_note(), self._surface_note())))
+
+    @property
+    def error_of_alpha(self) -> str:
+        """That the intervals do not include the error of an estimated pressure-viscosity coefficient, as text; "" where it is given
+        or fitted, or changes f by less than ``numerics.tolerance``."""
+        return alpha_of_fit_in_words(point.unmodelled_effects for point in self.points)
 
     @property
     def identifiability(self) -> tuple[str, ...]:

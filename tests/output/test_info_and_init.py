@@ -12,7 +12,7 @@ from small_study import SCENE as SMALL_SCENE
 
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
-from lubfric.output import describe_scene, main
+from lubfric.output import describe_scene, described_scene, main
 from lubfric.output.report import inputs_as_given as input_tables
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 
@@ -372,6 +372,13 @@ def test_info_counts_no_strips_of_a_model_that_has_no_answer():
         text = describe_scene(streamers.with_(numerics={"model": name}))
         costs.add(text.partition("cost: ")[2].partition("\n")[0])
     assert len(costs) == 1
+
+
+def test_info_of_a_traction_curve_promises_no_model_at_the_points_where_f_is_near_zero():
+    """In pure rolling the film may be thick and the model-form error of f large."""
+    (text, _) = described_scene(HEAVY.with_(surface={"sq": 2e-9}), ratios=[0.0, 0.05])
+    (line, *_) = text.partition("  model\n")[2].splitlines()
+    assert "load-sharing model alone where the film is thick" in line and "pure rolling" in line
 
 
 def test_info_says_what_a_strip_takes_if_its_cells_have_to_be_shorter():

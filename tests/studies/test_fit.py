@@ -678,3 +678,20 @@ def test_the_status_of_a_fit_names_a_large_model_form_error():
     for error, expected in ((0.05, ""), (0.8, "inexact"), (math.nan, "")):
         (kind, text) = fit_status(replace(result, model_error=np.full(SPEEDS.size, error)))
         assert kind == expected and ("up to 80 %, is in no interval" in text) == (kind == "inexact")
+
+
+@pytest.mark.parametrize("alpha", [None, 2e-8])
+def test_a_fit_names_the_error_of_an_estimated_pressure_viscosity_coefficient(alpha):
+    """In status, answer and summary; nothing where the coefficient is given."""
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "60 °C", "viscosity": None}
+    scene = SCENE.with_(lubricant=oil | {"pressure_viscosity_coefficient": alpha})
+    speeds = np.array([0.003, 0.03, 0.3])
+    measured = lubfric.Measured(speeds, lubfric.stribeck(scene, speeds).coefficient)
+    result = lubfric.fit(scene, measured, {FRICTION: (0.05, 0.2)}, starts=0)
+    (_, status) = fit_status(result)
+    is_estimate = alpha is None
+    assert ("coefficient is an estimate, and its error, which the fitted parameters have too" in status) == is_estimate
+    assert (
+        any("give lubricant.pressure_viscosity_coefficient" in text for text in result.not_in_intervals) == is_estimate
+    )
+    assert ("which is an estimate and moves the fitted parameters" in result.explain()) == is_estimate

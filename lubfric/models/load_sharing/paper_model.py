@@ -66,7 +66,10 @@ class PaperModel(Model):
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         if why := why_gap_not_resolved(scene):
             return f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"
-        return "load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"
+        return (
+            "load-sharing model alone where the film is thick or the surfaces are smooth; a point at which its model-form error is above "
+            "numerics.model_tolerance, as may be in pure rolling, is solved by the next model"
+        )
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_in_film(scene, speeds)

@@ -122,6 +122,7 @@ from .unmodelled import (
     ExpectedEffect,
     UnmodelledEffect,
     alpha_beside_interval,
+    alpha_of_fit_in_words,
     alpha_of_points_in_words,
     change_in_words,
     effect_in_words,

@@ -11,7 +11,7 @@ change of f: it holds that of the result by any model.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -206,6 +206,25 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
         f"The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. {where}{others}, by closed forms, "
         f"the lowest value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give "
         "lubricant.pressure_viscosity_coefficient."
+    )
+
+
+def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]]) -> str:
+    """Return by how much the lowest and the highest pressure-viscosity coefficient of measured oils change f at most at the points
+    of a fit, whose parameters have this error too, and what to give; "" as of `alpha_of_points_in_words`."""
+    changes = [by_end for by_end in map(_changes_by_alpha, effects_of_points) if by_end]
+    if not changes:
+        return ""
+    texts = []
+    for end in ENDS_OF_ALPHA:
+        largest = max((by_end[end] for by_end in changes if end in by_end), key=abs, default=None)
+        texts.append(
+            f"{'' if largest is None else 'up to '}{_change_at_end_of_alpha({} if largest is None else {end: largest}, end)}"
+        )
+    return (
+        "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the fitted parameters; by "
+        f"closed forms, the lowest value of measured oils changes f by {texts[0]}, the highest by {texts[1]}; give "
+        "lubricant.pressure_viscosity_coefficient"
     )
 
 
