@@ -43,7 +43,6 @@ CORRELATED = 0.9
 
 # What the warnings of a point say of its tolerance, and what those of a fit say that set it.
 OF_THE_FIT = {
-    "below numerics.tolerance (": "below the tolerance that the fit set from the noise of the data (",
     "numerics.tolerance sets this limit": "the fit set this limit from the noise of the data",
 }
 

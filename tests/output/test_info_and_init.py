@@ -275,7 +275,7 @@ def test_info_of_a_run_in_time_is_one_story():
     assert "strips" not in head and "time (s)" not in head and "(below)" not in stated and "alone" not in stated
     assert (
         "-0.05 to 0.05 m/s  (motion.entrainment_speed) over the run: transient.speed" in stated
-        and stated.count("of the roughness, ") == 1
+        and stated.count("strips of the roughness, ") == 1
     )
     assert "moving roughness is treated as stationary" in stated
     squeeze = describe_scene(SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6)))
