@@ -314,6 +314,19 @@ def test_a_warning_with_several_limits_takes_the_words_of_its_largest_value(valu
     assert f"it takes {worst} s" in on_curve.text and f"it takes {worst} s" in in_table.text
 
 
+def test_a_warning_of_several_points_has_the_words_of_the_largest_effect_on_f():
+    """The lowest Péclet number is not that of the point where f is changed the most."""
+    slow, fast = (replace(entry(value), consequence=f"by {e}", effect=e) for value, e in ((1.2, 0.01), (2.9, 0.04)))
+    (on_curve,) = gathered_on_curve([(0.2, (slow,)), (0.5, (fast,))])
+    assert on_curve.text.endswith(
+        "slip is 1.2 % (at 0.2 m/s) to 2.9 % (at 0.5 m/s), below 5 %. At 0.5 m/s: by 0.04. Recommendation: less."
+    )
+    (in_table,) = gathered_in_table([[fast], [slow]])
+    assert in_table.text.endswith(
+        "slip is 1.2 (at point 2) to 2.9 %, below 5 %. At point 1: by 0.04. Recommendation: less."
+    )
+
+
 def test_notes_are_apart_from_warnings():
     """A note is named as one, counted apart, and does not hide in the sentence of a warning on the same quantity."""
     note = Violation(

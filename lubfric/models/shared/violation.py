@@ -217,14 +217,14 @@ def gathered_on_curve(
     points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[GatheredTexts, ...]:
     """Return one text for each assumption that is violated anywhere: at how many points, from where to where, and the
-    smallest and the largest value with their places; what it does and what to do: of the worst value, with the places
+    smallest and the largest value with their places; what it does and what to do: of the worst one, with the places
     where that is the same, if not all. Those that change f the most are the first.
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
     lines = []
     for group in sorted(_groups(points), key=lambda pairs: _rank([violation for _, violation in pairs])):
-        (_, worst) = max(group, key=lambda pair: -pair[1].value if pair[1].is_below else pair[1].value)
+        worst = _worst([violation for _, violation in group])
         alike = _alike(group, worst)
         places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
         place = at_values(sorted(value for value, _ in group), unit, name)
@@ -247,6 +247,14 @@ def _rank(violations: Sequence[Violation]) -> tuple[bool, float]:
     known."""
     effects = [violation.effect for violation in violations if math.isfinite(violation.effect)]
     return not any(violation.severe for violation in violations), -max(effects, default=0.0)
+
+
+def _worst(violations: Sequence[Violation]) -> Violation:
+    """Return that of ``violations`` of one kind whose words hold for all: that with the largest effect on f if this is known of
+    all, else that with the value farthest beyond the limit."""
+    if all(math.isfinite(violation.effect) for violation in violations):
+        return max(violations, key=lambda violation: violation.effect)
+    return max(violations, key=lambda violation: -violation.value if violation.is_below else violation.value)
 
 
 def _alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> tuple[list[Place], list[Place]]:
@@ -278,7 +286,7 @@ class GatheredTexts:
     statement : what is violated, what that does and what to do, in sentences
     place : the points, as text; "" of no point
     numbers : of these points, from 1; () on a curve
-    violation : that of the worst value; None: it is of no point
+    violation : the worst one; None: it is of no point
     """
 
     statement: str
@@ -311,18 +319,18 @@ class GatheredTexts:
 
 def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts]:
     """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of
-    a table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of this
-    value, with the points where they are the same, if not all. Points are named by their number, from 1. Those that change f the most
+    a table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of the
+    worst one, with the points where they are the same, if not all. Points are named by their number, from 1. Those that change f the most
     are the first, then those of the most points."""
     lines = []
     groups = [dict(group) for group in _groups(enumerate(rows, 1))]
     for group in sorted(groups, key=lambda group: (*_rank([*group.values()]), -len(group))):
-        (at_worst, worst) = _worst_in_table(group)
+        worst = _worst([*group.values()])
         alike = _alike(group.items(), worst)
         (place, advised) = (numbers_in_words(n, len(rows)) if len(n) < len(group) else "" for n in alike)
         lines.append(
             GatheredTexts(
-                statement=worst.statement(_range_in_table(group, at_worst), place, advised.lower()),
+                statement=worst.statement(_range_in_table(group), place, advised.lower()),
                 place=numbers_in_words(sorted(group), len(rows)),
                 numbers=tuple(sorted(group)),
                 violation=worst,
@@ -339,17 +347,17 @@ def _in_order(group: dict[int, Violation]) -> list[tuple[int, Violation]]:
     return sorted(group.items(), key=lambda pair: (float(pair[1].value_in_words), pair[0]))
 
 
-def _worst_in_table(group: dict[int, Violation]) -> tuple[int, Violation]:
+def _farthest_in_table(group: dict[int, Violation]) -> tuple[int, Violation]:
     """Return the number and the violation whose value is farthest beyond its limit; the first where that is not
     known."""
     ordered = _in_order(group) or list(group.items())[:1]
     return ordered[0 if ordered[0][1].is_below else -1]
 
 
-def _range_in_table(group: dict[int, Violation], at_worst: int) -> str:
-    """Return the smallest and the largest value of a ``group`` with the number of the worst, or the one value of
-    all."""
-    worst = group[at_worst]
+def _range_in_table(group: dict[int, Violation]) -> str:
+    """Return the smallest and the largest value of a ``group`` with the number of the one farthest beyond its limit, or the one
+    value of all."""
+    (at_worst, worst) = _farthest_in_table(group)
     ordered = _in_order(group)
     ends = [ordered[end][1].value_in_words for end in (0, -1)] if ordered else []
     if len({*ends}) < 2:
