@@ -417,3 +417,11 @@ def test_a_former_name_of_the_recommendation_names_that_of_today():
         entry(6.0).remedy
     with pytest.raises(AttributeError, match="recommendation"):
         lubfric.InputError("text").way_out
+
+
+@pytest.mark.parametrize("sliding, is_opposed", [(-2.5133, False), (-2.55, True)])
+def test_rounded_speeds_of_a_body_at_rest_do_not_make_it_move_against_the_other(sliding, is_opposed):
+    """A follower at rest on the base circle of a cam, with speeds of four digits: U = 1.2566 m/s, u2 - u1 = -2.5133 m/s."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": sliding / 1.2566})
+    found = [violation.consequence for violation in violations_by_motion(scene, 1.2566, 3e-7)]
+    assert any("opposite directions" in consequence for consequence in found) == is_opposed

@@ -35,6 +35,9 @@ INERTIA = 0.1
 # Slide-roll ratio beyond which the surfaces move against one another. It follows from u1 u2 < 0.
 OPPOSED = 2.0
 
+# Part by which a ratio may exceed that because speeds of a table are rounded [-]. A choice: four digits leave less.
+ROUNDED_SPEEDS = 1e-3
+
 # Density of an oil [kg/m³], where none is given: that of a mineral oil at 30 °C (oils.toml).
 DENSITY = 870.0
 
@@ -97,7 +100,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
     """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no
     film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
-    if ratio > OPPOSED * (1 + 1e-12):
+    if ratio > OPPOSED * (1 + ROUNDED_SPEEDS):
         why = "the surfaces move in opposite directions; heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
         check = "the speeds of the surfaces: the ratio is 2 in simple sliding"
