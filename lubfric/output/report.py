@@ -245,6 +245,9 @@ def status_kind(*, failed: bool, inexact: int) -> str:
     return "inexact" if inexact else ""
 
 
+# Assumptions on errors of f, whose violation the status of a run names.
+ERRORS_OF_F = (Assumption.NUMERICAL_ERROR, Assumption.MODEL_FORM_ERROR)
+
 # What is known of f where the sample is too short for an interval.
 WITHOUT_SAMPLING = (
     "The 95 % interval is not known, because the sampling error is not known; the other errors alone give {}."
@@ -730,9 +733,10 @@ def _place(curve: CurveResult, index: int) -> str:
 
 def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a run in time fills."""
+    missed = missed_by_run(result)
     return {
-        "kind": "" if result.is_complete else "failed",
-        "status": escape(result.status),
+        "kind": status_kind(failed=not result.is_complete, inexact=len(missed)),
+        "status": escape(" ".join((result.status, *missed))),
         "answer": paragraphs(
             [
                 *history_answer(prepared.scene, result, complete=result.is_complete),
@@ -745,6 +749,20 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
         "details": "",
         "sources": bullets(result.cite().splitlines()),
     }
+
+
+def missed_by_run(result: TransientResult) -> list[str]:
+    """Return the errors of f that are above their tolerances at outputs of a run, in a sentence each."""
+    sentences = []
+    for each in result.gathered:
+        violation = each.violation
+        if violation is None or violation.is_note or violation.assumption not in ERRORS_OF_F:
+            continue
+        worst = f"{float(f'{violation.value:.2g}'):g} {violation.unit}"
+        sentences.append(
+            f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} {violation.unit}, up to {worst}."
+        )
+    return sentences
 
 
 def _history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
