@@ -733,10 +733,10 @@ def _place(curve: CurveResult, index: int) -> str:
 
 def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a run in time fills."""
-    missed = missed_by_run(result)
+    above = missed_by_run(result)
     return {
-        "kind": status_kind(failed=not result.is_complete, inexact=len(missed)),
-        "status": escape(" ".join((result.status, *missed))),
+        "kind": status_kind(failed=not result.is_complete, inexact=len(above)),
+        "status": escape(" ".join((result.status, *above))),
         "answer": paragraphs(
             [
                 *history_answer(prepared.scene, result, complete=result.is_complete),
