@@ -476,7 +476,7 @@ def test_the_model_in_place_of_one_that_has_no_answer_is_named(requested, speed,
     result = lubfric.friction(scene, speed, model=requested)
     assert result.decision.model == "paper"
     name = requested.name if isinstance(requested, Model) else requested
-    assert f"the paper model in place of the {name} model: " in result.decision.text
+    assert f"the load-sharing model in place of the {name} model: " in result.decision.text
     assert result.coefficient == lubfric.friction(scene, speed, model="paper").coefficient
 
 

@@ -59,9 +59,9 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     able = _able(speed, models, reasons)
     if requested == AUTO:
         choice = _cheapest(prepared, speed, able, for_fields=for_fields)
-        most_expensive = models[-1].name
-        if reasons[most_expensive] and choice.model is able[-1] and not choice.why:
-            choice = replace(choice, why=f"not the {most_expensive} model: {reasons[most_expensive]}")
+        why = reasons[models[-1].name]
+        if why and choice.model is able[-1] and not choice.why:
+            choice = replace(choice, why=f"not the {models[-1].title}: {why}")
         return _completed(choice)
     return _completed(_most_expensive(prepared, speed, able, models[-1], for_fields=for_fields))
 
@@ -94,7 +94,7 @@ def _most_expensive(prepared: Prepared, speed: float, models: list[Model], named
     model = models[-1]
     why = ""
     if model is not named:
-        why = f"the {model.name} model in place of the {named.name} model: {named.why_unable(prepared, speed)}"
+        why = f"the {model.title} in place of the {named.title}: {named.why_unable(prepared, speed)}"
     if model is models[0] or not model.takes_control(prepared.scene, prepared.sample):
         return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
     first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
@@ -145,9 +145,9 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             with limited_forecast(model.most_strip_work_in_auto):
                 choice = _beside(prepared, speed, model, (models[0], first), for_fields=for_fields)
         except TooCostlyError as error:
-            return replace(choice, why=f"not the {model.name} model: {error}", gave_up=True)
+            return replace(choice, why=f"not the {model.title}: {error}", gave_up=True)
         except (ConvergenceError, TooManyCellsError) as error:
-            return replace(choice, why=f"the {model.name} model was not solved ({error})", gave_up=True)
+            return replace(choice, why=f"the {model.title} was not solved ({error})", gave_up=True)
     return choice
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..models import title_of
 from ..quantities import COLUMNS
 from .uncertainty import PARTS, Uncertainty
 
@@ -24,9 +25,10 @@ def methods_paragraph(
     by_model = Counter(models)
     total = sum(by_model.values())
     shares = [
-        name if count == total else f"{name} ({count} of {total} points)" for name, count in by_model.most_common()
+        title_of(name) if count == total else f"{title_of(name)} ({count} of {total} points)"
+        for name, count in by_model.most_common()
     ]
-    by = f" by its {_joined(shares)} model{'s' if len(shares) > 1 else ''}" if shares else ""
+    by = f" by its {_joined(shares)}" if shares else ""
     by_purpose: dict[str, list[str]] = {}
     for source in sources:
         by_purpose.setdefault(source["purpose"], []).append(_reference(source))

@@ -114,6 +114,11 @@ class Model(ABC):
     def name(self) -> str:
         """The name in ``numerics.model``."""
 
+    @property
+    def title(self) -> str:
+        """What pictures and texts call the model."""
+        return f"{self.name} model"
+
     @abstractmethod
     def solve(
         self,
@@ -141,12 +146,12 @@ class Model(ABC):
 
     def described(self, scene: Scene) -> str:
         """Return what the model is, and how wide its interval, as text for a ``scene`` that names it."""
-        return f"{self.name} model (numerics.model)"
+        return f"{self.title} (numerics.model)"
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         """Return how the model takes part ``where`` numerics.model = "auto" is expected to take it, and what answers at
         other speeds unless it ``is_everywhere``, as text. ``where``: speeds in words."""
-        return f"{self.name} model {where}"
+        return f"{self.title} {where}"
 
     @property
     def most_strip_work_in_auto(self) -> float:

@@ -23,6 +23,12 @@ def model_named(name: str) -> Model:
     raise InputError(f" = {name!r} names no model", "numerics.model", names)
 
 
+def title_of(name: str) -> str:
+    """Return what pictures and texts call the model of this ``name`` (`Model.title`); of a name that `MODELS` does not have, the
+    name with "model"."""
+    return next((model.title for model in MODELS if model.name == name), f"{name} model")
+
+
 def models_up_to(name: str) -> tuple[Model, ...]:
     """Return the model of this ``name`` and the cheaper ones, the cheapest first; all of them for `AUTO`."""
     if name == AUTO:

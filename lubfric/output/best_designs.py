@@ -36,7 +36,7 @@ RULE = (
     "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an operating point. "
     "All other varied keys are design, except seeds and keys of [numerics] and [contact]. Two points cannot be distinguished if they "
     "differ by less than the error of their difference, or if an interval is not known. Numerical and sampling errors "
-    "count as independent, and so do model-form errors, except those of the quick model and of the model of the paper in designs that differ "
+    "count as independent, and so do model-form errors, except those of the quick model and of the load-sharing model in designs that differ "
     "by the size of the roughness, radius, viscosity or boundary friction alone: these are correlated, as pairs of solved contacts show. Ranges of inputs that all designs share, as these are not varied, are left out but for the difference of "
     "what they change in both points. The interval of f contains them, so intervals of points that can be distinguished may overlap."
 )

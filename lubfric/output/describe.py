@@ -402,7 +402,7 @@ def _model(
         rows = [_in_auto(scene, forecasts)]
     if strip:
         slow = next(model for model in models_up_to(AUTO) if model.has_slow_strips)
-        takes = f"one strip of moving roughness takes about {in_words(strip)} by the {slow.name} model"
+        takes = f"one strip of moving roughness takes about {in_words(strip)} by the {slow.title}"
         longest = max(one.longest_strip_seconds for one in forecasts)
         if longest > strip:
             takes += f", and {in_words(longest)} if the error of its cells requires shorter cells"

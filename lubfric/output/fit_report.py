@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import studies
 from .._base import __version__
+from ..models import title_of
 from ..models.shared import LARGE_NUMERICAL_ERROR, percent, sentence
 from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
@@ -20,6 +21,7 @@ from .report import (
     bullets,
     effects_table,
     inputs_as_given,
+    model_in_words,
     paragraphs,
     picture,
     scene_in_words,
@@ -272,7 +274,7 @@ def _points_table(result: FitResult) -> str:
         cells.append(plain_number(fitted))
         cells.append(interval_in_words(float(low[i]), float(high[i])) if result.describes_data else "not valid")
         cells.append(f"{100 * (1 - fitted / f):+.1f} %")
-        cells.append(result.points[i].decision.model if result.points else "-")
+        cells.append(title_of(result.points[i].decision.model) if result.points else "-")
         rows.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     more = "" if len(rows) == measured.x.size else f"<p>{len(rows)} of {measured.x.size} points; fit.json has all.</p>"
     return table(heads, rows) + more
@@ -293,7 +295,9 @@ def _method(result: FitResult) -> list[str]:
     by_noise = (
         f", set by the fit from the noise of the data (numerics.tolerance: {own})" if result.tolerance_in_words else ""
     )
-    models = ", ".join(dict.fromkeys(point.decision.basis or point.decision.model for point in result.points))
+    models = ", ".join(
+        dict.fromkeys(model_in_words(point.decision.basis, point.decision.model) for point in result.points)
+    )
     return [
         f"Bounded least squares of the residuals, computed minus measured f over {scale}, by a trust region.",
         search,

@@ -47,6 +47,8 @@ HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8)  # inch, at the usual width: speeds, film
 LAST_HEIGHT = 1.4  # inch, at the usual width: of friction force and power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
+BESIDE_HEIGHTS = (2.6, 4.5)  # inch: of a map and a bearing curve beside each other
+SURFACE_PAD = 0.05  # inch around a map and its bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
 
 
@@ -333,7 +335,9 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
         figure = figures.new_figure(figsize=(width, height + BEARING_WIDTH), layout=engine)
         above, bearing = figure.subplots(2, 1, height_ratios=(height, BEARING_WIDTH))
     else:
-        figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
+        figure = figures.new_figure(
+            figsize=(width + BEARING_WIDTH, float(np.clip(height, *BESIDE_HEIGHTS))), layout=engine
+        )
         above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     drawn.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_xlabel("x (µm), along the motion")
@@ -346,7 +350,9 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
         f"{'all strips' if is_one_of_strips else 'complete map'}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}",
         fontsize=10,
     )
-    figure.savefig(path)
+    figure.savefig(
+        path, bbox_inches="tight", pad_inches=SURFACE_PAD
+    )  # a map to scale may be lower than its part of the figure
 
 
 @figures.styled

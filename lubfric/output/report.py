@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import PARTS, FrictionResult
+from ..models import title_of
 from ..models.deterministic import FLOOR
 from ..models.shared import (
     ERROR_OF_ORDER_OF_MAGNITUDE,
@@ -429,7 +430,7 @@ def _model_of(point: FrictionResult) -> str:
 
 def model_in_words(basis: str, model: str) -> str:
     """Return by which ``model`` a point is; the ``basis`` where it has one (`lubfric.models.shared.Decision`)."""
-    return basis or f"{model} model"
+    return basis or title_of(model)
 
 
 def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
@@ -665,7 +666,7 @@ def _details(curve: CurveResult) -> str:
             forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [_number(number) for number in (*forces, *lengths)]
-            rows.append(_cells([f"{value:.4g}", *parts, *numbers, point.decision.basis or point.decision.model]))
+            rows.append(_cells([f"{value:.4g}", *parts, *numbers, _model_of(point)]))
     heads = [
         _heading(swept, unit),
         *(label.partition(" (")[0] for label in labels.values()),

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..estimate import PointWorkEstimate, estimated_work_of_point, expected_violations, seconds_of_points
-from ..models import prepare
+from ..models import prepare, title_of
 from ..models.shared import (
     Assumption,
     ExpectedEffect,
@@ -247,7 +247,7 @@ def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str
     if left.models:
         checked = left.models.total()
         answers = (
-            name if count == checked else f"{name} at {count} of {checked} points checked"
+            title_of(name) if count == checked else f"{title_of(name)} at {count} of {checked} points checked"
             for name, count in left.models.most_common()
         )
         lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")

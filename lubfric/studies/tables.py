@@ -250,7 +250,9 @@ def interval_band(
     low, high = (at(columns.get(f"interval_{end}", unknown) / moves - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         if "interval_low" in columns:
-            ax.plot([], [], " ", label=f"{BAND} not known")
+            ax.fill(
+                [], [], fill=False, ec=figures.BLUE, ls="--", lw=0.8, label=f"{BAND} not known"
+            )  # a band without ends
         return
     known = np.isfinite(columns.get("model_error", unknown)[np.isfinite(f)])
     band = BAND

@@ -38,7 +38,7 @@ def test_a_paragraph_to_quote_has_what_was_used():
     curve = lubfric.stribeck(lubfric.load_scene("paper").with_(numerics=loose), [0.01, 1.0])
     text = curve.cite("methods")
     assert text.startswith(f"Friction was computed with lubfric {lubfric.__version__} by its ")
-    assert "deterministic (1 of 2 points)" in text and "paper (1 of 2 points)" in text
+    assert "deterministic model (1 of 2 points)" in text and "load-sharing model (1 of 2 points)" in text
     listed = curve.cite()
     for doi in re.findall(r"doi:(\S+):", listed):
         assert text.count(f"doi:{doi}") == 1, doi
@@ -48,7 +48,7 @@ def test_a_paragraph_to_quote_has_what_was_used():
         "contains the numerical, sampling and model-form errors and the range of boundary film, which was not given."
     )
     point = curve.points[1]
-    assert "by its paper model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
+    assert "by its load-sharing model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
     assert "the ranges of" not in text and "the ranges of boundary friction coefficient" in cites_methods(ANTI_WEAR)
 
 

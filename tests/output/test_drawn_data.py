@@ -740,6 +740,8 @@ def test_a_curve_without_intervals_says_so():
     interval_band(axes, speed, {"coefficient": f, "interval_low": unknown, "interval_high": unknown})
     assert axes.get_legend_handles_labels()[1] == ["95 % interval not known"]
     assert not axes.collections
+    (sample,) = axes.patches
+    assert sample.get_edgecolor()[3] == 1.0 and not sample.get_fill()
 
 
 def test_few_values_of_a_study_are_named_and_many_are_read_off_a_bar():

@@ -231,7 +231,7 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
     (tmp_path / "s.toml").write_text(replace(scene, name=name).to_toml(), encoding="utf-8")
     assert lubfric.load_scene(tmp_path / "s.toml").name == name
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
-    assert (f"{name}\npaper model", False) in titles
+    assert (f"{name}\nload-sharing model", False) in titles
     measured = tmp_path / (name.replace("\n", "").replace("/", "") + ".csv")
     measured.write_text("U [m/s],mu\n0.3,0.05\n1,0.08\n")
     assert main(["plot", str(tmp_path / "o"), "--measured", str(measured), *COLUMNS]) == 0

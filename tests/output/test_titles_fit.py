@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 import lubfric
 from lubfric.estimate import FrictionResult
@@ -37,6 +38,16 @@ def test_titles_of_the_surface_are_complete(tmp_path, monkeypatch, shape):
     scene = PAPER.with_(contact=shape, surface={"sq": 433.6e-9}, numerics={"sampling": "patch"})
     plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
     assert [cut_texts(figure) for figure in figures] == [[]]
+
+
+@pytest.mark.parametrize("shape, lines", [((256, 128), 3), ((200, 150), 3), ((256, 100), 1)])
+def test_no_empty_band_is_above_a_wide_map(tmp_path, shape, lines):
+    """White rows above it in the picture, in lines of text: beside a bearing curve, whose title has two, and above one."""
+    scene = PAPER.with_(contact={"shape": shape, "spacing": 1e-6}, numerics={"sampling": "patch"})
+    plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
+    pixels = imread(tmp_path / "surface.png")[:, :, :3]
+    above = pixels[:, : pixels.shape[1] // 2 - 100].min(axis=(1, 2))
+    assert np.argmax(above < 0.5) < lines * 25
 
 
 def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():

@@ -412,7 +412,8 @@ def test_records_of_another_scene_are_named(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "model, words", [("quick", "model    quick (numerics.model = 'quick')"), ("paper", "model    paper (numerics")]
+    "model, words",
+    [("quick", "model    quick model (numerics.model = 'quick')"), ("paper", "model    load-sharing model (numerics")],
 )
 def test_the_plan_of_a_study_names_the_model_that_answers(model, words):
     scene = SCENE.with_(numerics={"model": model})
