@@ -107,6 +107,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "models_cheaper_than",
         "models_that_may_answer",
         "models_up_to",
+        "title_of",
     }
     names = set()
     for file in sorted((ROOT / "lubfric" / "estimate").rglob("*.py")):
