@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, TypeVar
 
@@ -100,7 +100,7 @@ class Violation(Renamed):
     recommendation: str
     severe: bool = False
     is_note: bool = False
-    effect: float = math.nan
+    effect: float = field(default=math.nan, compare=False)  # NaN is not equal to itself in another process
     _RENAMED = {"remedy": "recommendation"}
 
     def __post_init__(self) -> None:
