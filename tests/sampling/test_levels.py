@@ -254,9 +254,24 @@ def test_advice_on_cells_that_are_those_of_the_map_along_x_gives_their_length():
     assert prepared.sample.cells.coarsening[0] * surface_and_map_coarsening(prepared, 0)[1][0] == 1
     pair = SimpleNamespace(resolved=SimpleNamespace(work=1.0), has_halved_cells=False)
     said = shorter_cells_in_motion(prepared, pair)
-    assert (
-        said == "give a finer contact.spacing along x of at most 1.8 µm and numerics.grid = 'given' for shorter cells"
-    )
+    assert said == "give a contact.spacing along x of at most 1.8 µm and numerics.grid = 'given' for shorter cells"
+
+
+def test_a_given_grid_ends_at_the_cells_of_the_scene_and_the_advice_beyond_them_helps():
+    """Strips on cells twice as long take the effect of the scene's own from pieces, whatever the tolerance; what is said where
+    these are too long lowers the error."""
+    numerics = {"model": "deterministic", "sampling_tolerance": 0.2}
+    scene = lubfric.load_scene("paper").with_(contact={"spacing": 2e-6}, numerics=numerics)
+    for grid, tolerance, pieces in (("auto", 0.2, 0), ("given", 0.2, 1), ("auto", 0.01, 1)):
+        there = lubfric.prepare(scene.with_(numerics={"grid": grid, "tolerance": tolerance}))
+        result = solve_to_tolerance(there, 0.03, DeterministicModel()).levels
+        assert len(result.pieces) == pieces
+        assert all(piece.on_shortest_cells.result.spacing == pytest.approx((2e-6, 2e-6)) for piece in result.pieces)
+    point = lubfric.friction(scene, 0.03)
+    (note,) = (each for each in point.validity if each.what == "estimated numerical error of f")
+    assert note.recommendation == "give a contact.spacing of at most 1 µm"
+    helped = lubfric.friction(scene.with_(contact={"spacing": 1e-6}), 0.03)
+    assert helped.uncertainty.numerical < 0.5 * point.uncertainty.numerical
 
 
 def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correlation_length():

@@ -12,7 +12,6 @@ from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
-from ...units import worded
 from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
@@ -364,9 +363,7 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
         return f"{MORE_WORK} for shorter cells"
     if not sample.cells.is_native and not sample.refines_in_place:
         return "set numerics.grid = 'given' for shorter cells"
-    if prepared.is_given_or_measured:
-        return f"give {way_to_shorter_cells(prepared)}"
-    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
+    return f"give {way_to_shorter_cells(prepared)}"
 
 
 def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
@@ -378,21 +375,18 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         sample_coarsening = SampleCoarsening((sample_coarsening[0], sample_coarsening[1] // 2))
     along = sample.cells.coarsening[0] * sample_coarsening[0]
     if along == 1:  # cells of the map, on which most of the error depends
-        finer = f"along x of at most {worded(0.5 * sample.cells.native_spacing[0], 'm')} and numerics.grid = 'given'"
-        return f"give {way_to_shorter_cells(prepared)} {finer} for shorter cells"
-    if not sample.cells.is_native or sample_coarsening != (1, 1):
-        (fx, fy) = (a * b for a, b in zip(sample.cells.coarsening, sample_coarsening))
-        times = fx * fx * fy  # as many more steps in time as cells along x
-        work = times * pair.resolved.work
-        cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
-        if work > LONGEST_WORK:
-            return (
-                "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip on the cells "
-                "of this map would take too long),"
-            )
-        with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
-        return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost})"
-    return f"give {way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
+        return f"give {way_to_shorter_cells(prepared, along_x=True)} and numerics.grid = 'given' for shorter cells"
+    (fx, fy) = (a * b for a, b in zip(sample.cells.coarsening, sample_coarsening))
+    times = fx * fx * fy  # as many more steps in time as cells along x
+    work = times * pair.resolved.work
+    cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
+    if work > LONGEST_WORK:
+        return (
+            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip on the cells "
+            "of this map would take too long),"
+        )
+    with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
+    return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost})"
 
 
 def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:

@@ -593,9 +593,9 @@ def _are_enough(prepared: Prepared, error: float) -> bool:
         return True
     if error > scene.numerics.tolerance:
         return False
-    if sample.refines_in_place:
-        return scene.numerics.grid != "given"
-    return is_smooth_over_cells(sample.strip(0).heights)
+    if scene.numerics.grid == "given":
+        return False
+    return sample.refines_in_place or is_smooth_over_cells(sample.strip(0).heights)
 
 
 def _third_level(

@@ -13,6 +13,7 @@ from ...contact import BOUNDARY, HalfSpace, HalfSpaceContact, RoughContact, half
 from ...samples import PIECE_LENGTH, Sample, half_space_contact_of, is_measured
 from ...scene import Scene
 from ...surface import Surface
+from ...units import worded
 from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
 from .violation import Violation
 
@@ -76,9 +77,14 @@ class Prepared(FieldsOnly, Renamed, Shown):
         return {"": self.scene.name, "map": self.surface.describe()}
 
 
-def way_to_shorter_cells(prepared: Prepared) -> str:
-    """Return how the native cells of ``prepared`` become shorter, as text."""
-    return "a map with shorter cells" if prepared.is_given_or_measured else "a finer contact.spacing"
+def way_to_shorter_cells(prepared: Prepared, *, along_x: bool = False) -> str:
+    """Return how the native cells of ``prepared`` become half as long, or only so ``along_x``, as text."""
+    what = "a map with cells" if prepared.is_given_or_measured else "a contact.spacing"
+    (dx, dy) = (0.5 * length for length in prepared.sample.cells.native_spacing)
+    if along_x:
+        return f"{what} along x of at most {worded(dx, 'm')}"
+    lengths = worded(dx, "m") if math.isclose(dx, dy) else f"{worded(dx, 'm')} along x and {worded(dy, 'm')} along y"
+    return f"{what} of at most {lengths}"
 
 
 def why_no_rough_film(prepared: Prepared, speed: float) -> str:
