@@ -21,6 +21,7 @@ from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice
 from .full_load import full_load_numbers
+from .inputs_to_quote import inputs_to_quote
 from .methods import MethodUse, methods_of
 from .power import PowerLoss, power_loss_of
 from .result import FrictionResult
@@ -93,6 +94,7 @@ def result_of(
             scene, prepared.surface.sq, speed, friction_parts, includes_motion=choice.model.includes_motion
         ),
         methods=_methods(prepared, choice, numbers, uncertainty),
+        inputs=inputs_to_quote(scene, has_given_map=prepared.has_given_map),
         fields=fields,
         compared_fields=compared_fields,
         details=details,

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..models import title_of
-from ..quantities import COLUMNS
+from ..models.shared import Decision
+from ..quantities import COLUMNS, counted
 from .uncertainty import PARTS, Uncertainty
 
 # Authors of a source that are named; of more the first alone. A convention.
@@ -18,11 +19,16 @@ PARTS_IN_PARAGRAPH = {"not given": "the range of {}, which was not given", "inpu
 
 
 def methods_paragraph(
-    version: str, sources: Sequence[dict[str, Any]], models: Sequence[str], uncertainties: Sequence[Uncertainty]
+    version: str,
+    sources: Sequence[dict[str, Any]],
+    decisions: Sequence[Decision],
+    uncertainties: Sequence[Uncertainty],
+    inputs: Sequence[str],
 ) -> str:
-    """Return the paragraph: program and ``version``, by which ``models`` the points are, the ``sources`` of the methods (of
-    papers.toml), and what the intervals of f contain by their ``uncertainties``."""
-    by_model = Counter(models)
+    """Return the paragraph: program and ``version``, by which models and on which cells the points are (``decisions``), their
+    ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain by their
+    ``uncertainties``."""
+    by_model = Counter(decision.model for decision in decisions)
     total = sum(by_model.values())
     shares = [
         title_of(name) if count == total else f"{title_of(name)} ({count} of {total} points)"
@@ -34,10 +40,22 @@ def methods_paragraph(
         by_purpose.setdefault(source["purpose"], []).append(_reference(source))
     methods = "; ".join(f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items())
     sentences = [f"Friction was computed with lubfric {version}{by}."]
+    facts = [*inputs, *_cells(decisions)]
+    sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
     sentences += [f"The methods are: {methods}."] if methods else []
     parts = _parts_of_interval(uncertainties)
     sentences += [f"The 95 % interval of f contains {_joined(parts)}."] if parts else []
     return " ".join(sentences)
+
+
+def _cells(decisions: Sequence[Decision]) -> list[str]:
+    """Return on how many strips and cells the points were solved; nothing where none has cells."""
+    sizes = {(each.strips, *each.shape) for each in decisions if each.shape is not None}
+    if not sizes:
+        return []
+    ends = dict.fromkeys((min(sizes), max(sizes)))
+    texts = [f"{nx} x {ny} cells in {counted(strips, 'strips')}" for strips, nx, ny in ends]
+    return [" to ".join(texts)]
 
 
 def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:

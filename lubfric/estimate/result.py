@@ -52,6 +52,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         a recommendation, the largest first; without those that would change f by less than the tolerance
         (`lubfric.models.shared.unmodelled_effects`)
     methods : names of the published methods used; ``cite()`` gives the publications
+    inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
     compared_fields : those of the cheapest model on the same strips, where it was solved beside the answer
     details : what each model keeps of its solve, by its name
@@ -65,6 +66,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     validity: tuple[Violation, ...] = ()
     unmodelled_effects: tuple[UnmodelledEffect, ...] = ()
     methods: tuple[str, ...] = ()
+    inputs: tuple[str, ...] = ()
     fields: ContactFields | None = None
     compared_fields: ContactFields | None = None
     details: dict[str, ModelDetails | None] = field(default_factory=dict)
@@ -184,16 +186,22 @@ def _interval(interval: tuple[float, float]) -> str:
 
 
 def cited(
-    methods: Iterable[str], format: str = "text", *, models: Sequence[str] = (), errors: Sequence[Uncertainty] = ()
+    methods: Iterable[str],
+    format: str = "text",
+    *,
+    decisions: Sequence[Decision] = (),
+    errors: Sequence[Uncertainty] = (),
+    inputs: Sequence[str] = (),
 ) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
-    "text" or "bibtex"; or "methods", a paragraph about them with the ``models`` of the points and their ``errors``."""
+    "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and the
+    ``inputs`` that they share."""
     validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
     if format == "methods":
-        return methods_paragraph(__version__, sources, models, errors)
+        return methods_paragraph(__version__, sources, decisions, errors, inputs)
     if not any(source["type"] == "software" for source in sources):
         program = papers["deterministic model"][0]  # a chapter of lubfric
         sources.append(program | {"chapter": "", "purpose": PROGRAM})
@@ -204,5 +212,16 @@ def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str
     """Return the papers of several results, each once, in the ``format`` of `cited`."""
     solved = list(points)
     methods = [name for point in solved for name in point.methods]
-    models = [point.decision.model for point in solved]
-    return cited(methods, format, models=models, errors=[point.uncertainty for point in solved])
+    return cited(
+        methods,
+        format,
+        decisions=[point.decision for point in solved],
+        errors=[point.uncertainty for point in solved],
+        inputs=shared_inputs([point.inputs for point in solved]),
+    )
+
+
+def shared_inputs(of_points: Sequence[Sequence[str]]) -> list[str]:
+    """Return the inputs that all points have in common, of those ``of_points``, in their order."""
+    first = of_points[0] if of_points else ()
+    return [text for text in first if all(text in inputs for inputs in of_points)]

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from .._base import Renamed, Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
-from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, methods_of
+from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, inputs_to_quote, methods_of, shared_inputs
 from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell
 from ..quantities import COLUMN_OF_ERROR, NUMBERS
@@ -225,7 +225,8 @@ class StudyResult(Renamed, Shown):
         prepared = prepare(self.plan.scenes[int(np.argmax(solved))])
         models = models_that_may_answer(prepared.scene.numerics.model)
         names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
-        return cited(names, format)
+        inputs = shared_inputs([inputs_to_quote(scene) for scene in self.plan.scenes])
+        return cited(names, format, inputs=inputs)
 
     def _use(self, model: Model) -> MethodUse:
         """Return what the columns show of the methods that the study uses, where ``model`` answers."""

@@ -1,6 +1,7 @@
 """A result cites what it used, and nothing else; the command tells its version."""
 
 import importlib.metadata
+import math
 import re
 from dataclasses import replace
 from functools import cache
@@ -57,6 +58,43 @@ def cites_methods(scene):
     point = lubfric.friction(scene, 0.03, raise_on_failure=False)
     known = replace(point.uncertainty, interval=(0.9 * point.coefficient, 1.1 * point.coefficient))
     return replace(point, uncertainty=known).cite("methods")
+
+
+def test_the_paragraph_states_the_inputs_that_all_points_share():
+    """With their units; the peak pressure of Hertz is sqrt(F E'/(2 π B R))."""
+    scene = KNOWN.with_(lubricant={"eyring_stress": 5e6}, bodies={"boundary_film": 15e-9})
+    point = lubfric.friction(scene, 0.03, raise_on_failure=False)
+    (stated,) = re.findall(r"The inputs are: (.*?)\. The methods", point.cite("methods"))
+    b = scene.bodies
+    peak = (b.load * b.e_prime / (2 * math.pi * b.width * b.radius)) ** 0.5
+    nx, ny = point.decision.shape
+    for words in (
+        f"Sq {1e9 * scene.surface.sq:.4g} nm with a correlation length of {1e6 * scene.surface.correlation_length:.4g} µm",
+        f"load {b.load:.4g} N",
+        f"peak Hertz pressure {1e-6 * peak:.4g} MPa",
+        "pressure-viscosity coefficient 20 1/GPa;",
+        "Eyring stress 5 MPa",
+        f"boundary friction coefficient {b.boundary_friction_coefficient:.4g}",
+        "boundary film 15 nm",
+        f"{nx} x {ny} cells in 1 strip",
+    ):
+        assert words in stated, words
+    estimated = lubfric.friction(PATCH.with_(lubricant=OIL), 0.03, raise_on_failure=False).cite("methods")
+    assert "1/GPa (estimated)" in estimated and "boundary film " not in estimated.partition("The methods")[0]
+    study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")
+    assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 3 N" not in study
+
+
+def test_both_models_of_one_gap_cite_the_same_film():
+    small = PATCH.with_(surface={"acf": "gaussian", "correlation_length": 16e-6})
+    given = {"grid": "given", "accept": True}
+    for model in ("quick", "deterministic"):
+        cites_it = lubfric.friction(
+            small.with_(numerics=given | {"model": model}, contact={"shape": (48, 48), "spacing": 1.9e-6}),
+            0.03,
+            raise_on_failure=False,
+        ).cite()
+        assert "Jakobsson" in cites_it and "Olsson" in cites_it, model
 
 
 def test_a_curve_cites_every_paper_once():

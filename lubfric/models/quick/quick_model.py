@@ -351,7 +351,9 @@ class QuickModel(Model):
         return replace(alone, seconds=seconds, fine_fields_seconds=fine_fields, shared=shared)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
-        return ("deterministic model", *methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film))
+        of_film = ("kept mass",) if has_film else ()
+        of_sharing = methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film)
+        return ("deterministic model", *of_film, *of_sharing)
 
     def rolling_error(self, lambda_ratio: float) -> float:
         return rolling_model_error(lambda_ratio)
