@@ -135,7 +135,7 @@ def test_cells_that_the_work_ended_have_one_advice_that_helps(scene, work, more)
 
 @pytest.mark.parametrize("speed", [0.01, 0.2])
 def test_a_local_peak_is_between_asperity_contacts_only_where_asperities_carry_load(monkeypatch, speed):
-    monkeypatch.setattr(checks, "ROELANDS_LIMIT", 1e6)
+    monkeypatch.setitem(checks.OF_VISCOSITY_LAW, "roelands", 1e6)
     monkeypatch.setattr(checks, "SPIKE", 0.5)
     point = lubfric.friction(PATCH.with_(numerics={"tolerance": 0.05}), speed)
     (peak,) = (each.consequence for each in point.validity if "local film pressure" in each.what)

@@ -269,7 +269,7 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
     (low, high) = (_change_at_end_of_alpha(changes, end) for end in ENDS_OF_ALPHA)
     return (
         "the pressure-viscosity coefficient is estimated, and its range is not in the interval (the lowest of measured oils changes f by "
-        f"{low}, the highest by {high})"
+        f"about {low}, the highest by about {high})"
     )
 
 
