@@ -280,22 +280,22 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
             has_too_many=has_too_many,
         )
     error = _error_of_short_piece(shortest, (change, shortest.last_change), max(halvings - 2, 1))
-    of_its_length = _error_of_its_length(shortest)
+    spent_on_shortest = sum(strip.work for strip in shortest)
     ladder = _continued(
         shortest,
         _coarsening_of(sample, shortest.on_shortest_cells),
         shorten=_halved,
         solve=_solver_of_short_piece(prepared, speed),
         error=error,
-        tolerance=max(tolerance, of_its_length, LARGE_ERROR),  # shorter cells do not reduce the error by its length
-        spent=spent + sum(strip.work for strip in shortest),
-        most=most - sum(strip.work for strip in shortest),
+        # shorter cells do not reduce the error by its length
+        tolerance=max(tolerance, _error_of_its_length(shortest), LARGE_ERROR),
+        spent=spent + spent_on_shortest,
+        most=most - spent_on_shortest,
         has_end=True,
     )
     if len(ladder.strips) > len(shortest):
-        shortest = Piece(replace(one, slope=slope) for one in ladder.strips)
-        of_its_length = _error_of_its_length(shortest)
-        error = math.hypot(max(ladder.error, of_its_length), _scatter_of_last_change(shortest))
+        shortest = ladder.piece(slope)
+        error = math.hypot(max(ladder.error, _error_of_its_length(shortest)), _scatter_of_last_change(shortest))
     return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
 
 
@@ -407,6 +407,10 @@ class Ladder:
     has_too_many: bool = False
     has_ended: bool = False
 
+    def piece(self, slope: float) -> Piece:
+        """Return the strips as a piece, with this ``slope`` of friction over load [-]."""
+        return Piece(replace(one, slope=slope) for one in self.strips)
+
 
 def _continued(
     strips: Sequence[StripSolution],
@@ -516,7 +520,7 @@ def _strip_on_shorter_cells(
     is_continued = len(ladder.strips) > len(pieces[0])
     return ShorterCells(
         pieces=pieces,
-        shortest=Piece(replace(one, slope=slope) for one in ladder.strips) if is_continued else Piece(),
+        shortest=ladder.piece(slope) if is_continued else Piece(),
         sampling_error=scatter,
         error=ladder.error,
         has_unsolved=ladder.has_unsolved,
@@ -572,7 +576,7 @@ def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGr
     )
     if len(ladder.strips) == 2:
         return unsolved
-    patch = Piece(replace(one, slope=pair.resolved.slope) for one in ladder.strips)
+    patch = ladder.piece(pair.resolved.slope)
     return replace(unsolved, pieces=(patch,), strip=patch.on_shortest_cells)
 
 
@@ -733,7 +737,7 @@ def _refined(
         strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
         ladder = [strip if longer is None else longer, strip]
     while map_coarsening != (1, 1):
-        map_coarsening = MapCoarsening((max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)))
+        map_coarsening = MapCoarsening(_halved(map_coarsening))
         ladder.append(
             solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
         )
