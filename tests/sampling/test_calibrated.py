@@ -337,6 +337,21 @@ def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
 
+@pytest.mark.parametrize(
+    "numerics, load, head",
+    [({}, 5.0, "note"), ({"model_tolerance": 0.04}, 5.0, "warning"), ({}, 3.0, "warning")],
+)
+def test_the_calibrated_error_is_a_warning_outside_the_cases_and_above_a_target_of_the_user(numerics, load, head):
+    """Its size is in the interval in any case."""
+    limits = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06}
+    bodies = {"load": load, "boundary_film": 2e-8}
+    scene = LOOSE_PAPER.with_(bodies=bodies, lubricant=limits, contact=SMALL, numerics=numerics)
+    result = point(scene, 0.01, "quick")
+    (error,) = (each for each in result.validity if each.assumption == Assumption.MODEL_FORM_ERROR)
+    low, high = result.uncertainty.interval
+    assert error.head == head and high - low > result.uncertainty.model * result.coefficient
+
+
 STRIP = {
     "coefficient": 0.05, "rolling": 0.001, "at_half_film": 0.048, "at_twice_film": 0.053, "by_cells": 0.02,
     "by_motion": math.nan, "coarse": 1 / 3, "smooth": 1.0,

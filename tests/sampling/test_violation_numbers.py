@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from lubfric.estimate.uncertainty import Uncertainty
 from lubfric.models.shared import (
+    ModelErrorPart,
     Violation,
     gathered,
     gathered_in_table,
@@ -70,6 +71,16 @@ def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
     assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
     assert not itself.recommendation  # f has no interval
     assert not list(violations_by_model_error(0.04, tolerance=0.05, f=1e-5, has_interval=True))
+
+
+@pytest.mark.parametrize("other, is_note", [(0.04, True), (0.06, False)])
+def test_an_error_that_is_usual_for_the_model_is_a_note_unless_the_others_are_too_large(other, is_note):
+    parts = [
+        ModelErrorPart(sides=(0.2, 0.2), cause="long cells", is_usual=True),
+        ModelErrorPart(sides=(other, other), cause="heat"),
+    ]
+    (violation,) = violations_by_model_error(0.21, tolerance=0.05, f=0.04, has_interval=True, parts=parts)
+    assert violation.is_note == is_note and "long cells" in violation.text
 
 
 def test_values_on_both_sides_of_a_range_are_two_sentences():

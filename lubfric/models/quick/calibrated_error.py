@@ -63,6 +63,7 @@ class ErrorModel:
     covariance : of these coefficients
     spread : coefficient of each feature in ln σ
     quantile : k
+    usual_error : half-width of the bounds of f, relative, that nine cases in ten do not exceed
     rolling : 95 % quantile of the error of the part of f by the gradient of the pressure, over the square root of that part
         times the sum of both parts
     range : least and largest pressure [Pa], Moes' film over Sq [-], load [N/m] and slide-roll ratio [-] of the cases
@@ -73,6 +74,7 @@ class ErrorModel:
     covariance: np.ndarray
     spread: Mapping[str, float]
     quantile: float
+    usual_error: float
     rolling: float
     range: Mapping[str, tuple[float, float]]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..._base import work_left
 from ...quantities import FRICTION_FORCES
-from ...scene import Scene, has_moving_roughness
+from ...scene import Numerics, Scene, has_moving_roughness
 from ..deterministic import (
     UNKNOWN_SLOPE,
     Levels,
@@ -255,6 +255,17 @@ def _solve_pair(
     return replace(solve_moving(scene, cells, speed, target), is_mirrored=is_mirrored)
 
 
+def _is_usual(on_long_cells: StripsOnLongCells) -> bool:
+    """Return whether the error by the cells is one that solved cases have: within their range, no larger than that of nine in ten,
+    and with no target that the scene sets in place of the default."""
+    tolerance = on_long_cells.scene.numerics.model_tolerance
+    return (
+        tolerance == Numerics().model_tolerance
+        and not any(reported(on_long_cells.outside))
+        and max(on_long_cells.bounds) <= on_long_cells.error_model.usual_error
+    )
+
+
 def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLongCells) -> ModelAnswer:
     """Return the answer of the strips ``on_long_cells`` at ``speed`` [m/s] without their bias, with its error."""
     levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers)
@@ -263,6 +274,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         sides=on_long_cells.bounds,
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
+        is_usual=_is_usual(on_long_cells),
     )
     parts = (by_cells, *answer.errors.parts_of_model)
     cases = on_long_cells.error_model.cases

@@ -29,12 +29,14 @@ class ModelErrorPart:
     cause : what it comes from, as text
     recommendation : what reduces it, as text; "": nothing that a user may give
     is_of_input : whether it comes from an input that is not known, which no other model knows either
+    is_usual : whether it is usual for the model that answers (docs/models.md), so that a note reports it instead of a warning
     """
 
     sides: tuple[float, float]
     cause: str
     recommendation: str = ""
     is_of_input: bool = False
+    is_usual: bool = False
 
     @property
     def error(self) -> float:
@@ -60,7 +62,8 @@ def sides_of_parts(parts: Sequence[ModelErrorPart]) -> Sides:
 def violations_by_model_error(
     error: float, *, tolerance: float, f: float, has_interval: bool, parts: Sequence[ModelErrorPart] = ()
 ) -> Iterator[Violation]:
-    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``.
+    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``: a note where
+    this is because of parts that are usual for the model.
 
     Where f is near 0, the warning states the error in f itself. ``has_interval``: whether f has an interval, which includes the error.
     """
@@ -70,6 +73,7 @@ def violations_by_model_error(
     unit = 100.0 if is_relative else abs(f)
     largest = largest_of(parts)
     recommendation = largest.recommendation if largest is not None else ""
+    unusual = [part for part in parts if not part.is_usual]
     if recommendation:
         others = error_of_parts([part for part in parts if part is not largest])
         recommendation = OTHER_PARTS.format(recommendation, percent(others)) if others else recommendation
@@ -81,5 +85,6 @@ def violations_by_model_error(
         unit="%" if is_relative else "",
         consequence=LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL,
         recommendation=recommendation or (READ_INTERVAL if has_interval else ""),
+        is_note=len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance,
         effect=error,
     )

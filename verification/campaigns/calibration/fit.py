@@ -54,6 +54,7 @@ CLOSE = 1e-6  # change of a coefficient after which the fit ends
 CONFIDENCE = 0.95  # of the interval that the fit is made for
 QUARTERS = 4  # kinds of load, and of slide-roll ratio
 EDGES = (0.005, 0.995)  # quantiles of the cases: the range of the campaign
+USUAL = 0.9  # quantile of the half-widths: an error that nine cases in ten do not exceed. A convention
 ROLLING = 0.95  # quantile of the error of the part of f by the gradient of the pressure
 DIGITS = 10  # of the numbers of `quick` in their table
 LONGEST_CASE = 60.0  # s: processor time of a case on long cells, at most
@@ -302,6 +303,11 @@ def quantile_of(parts: Sequence[HeldOut]) -> float:
     return float(values[min(place, values.size - 1)])
 
 
+def usual_error(parts: Sequence[HeldOut], quantile: float) -> float:
+    """Return the half-width of the bounds of f that `USUAL` of the cases do not exceed, with this ``quantile`` of the errors over σ."""
+    return float(np.quantile(np.concatenate([part.half_widths(quantile) for part in parts]), USUAL))
+
+
 def lines(motion: str, solved: Sequence[Solved]) -> Iterator[str]:
     """Yield the section of calibration.toml of a ``motion``."""
     known = design(solved)
@@ -309,7 +315,10 @@ def lines(motion: str, solved: Sequence[Solved]) -> Iterator[str]:
     covariance = ", ".join("[" + ", ".join(f"{value:.3e}" for value in row) + "]" for row in fit.covariance)
     yield f"[{motion}]"
     yield f"cases = {len(solved)}"
-    yield f"quantile = {quantile_of(held_out(solved, known)):.3f}"
+    parts = held_out(solved, known)
+    quantile = quantile_of(parts)
+    yield f"quantile = {quantile:.3f}"
+    yield f"usual_error = {usual_error(parts, quantile):.2f}"
     yield f"rolling = {np.quantile(rolling_errors(solved), ROLLING):.3f}"
     yield f"bias = {_table(BIAS[motion], fit.bias)}"
     yield f"covariance = [{covariance}]"
@@ -347,8 +356,8 @@ def ranges(solved: Sequence[Solved]) -> dict[str, np.ndarray]:
 HEAD = """# The error of f on long cells, fitted to the tables of verification/campaigns/calibration by
 # python -m verification.campaigns.calibration fit: ln of the ratio of the sliding parts of f has the mean `bias` times
 # features, whose coefficients have the `covariance`, and the standard deviation exp(`spread` times features); `quantile`
-# times both together is the half-width of 95 % (lubfric/models/quick/calibrated_error.py). `rolling`: the relative
-# error of the other part of f, at 95 %. Do not edit by hand.
+# times both together is the half-width of 95 % (lubfric/models/quick/calibrated_error.py). `usual_error`: that of f which
+# nine cases in ten do not exceed. `rolling`: the relative error of the other part of f, at 95 %. Do not edit by hand.
 """
 
 
