@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric._base import limited_work
 from lubfric.estimate import estimated_work_of_point
-from lubfric.models.deterministic import shorter_cells
+from lubfric.models.deterministic import ladder, pieces, shorter_cells
 from lubfric.models.deterministic.strip import cautious_changes, error_by_cells, expected_error_after
 
 SPEED = 0.03
@@ -52,7 +52,8 @@ def solved(scene, monkeypatch):
 
     shorter_cells_solve = shorter_cells.solve_strip
     with monkeypatch.context() as patch:
-        patch.setattr(shorter_cells, "solve_strip", solve)
+        for module in (pieces, shorter_cells):
+            patch.setattr(module, "solve_strip", solve)
         return lubfric.friction(scene), shapes
 
 
@@ -69,7 +70,7 @@ def test_the_shortest_cells_of_a_short_strip_continue_its_own_solution(scene, mo
 def test_cells_that_do_not_pay_are_not_solved_and_the_error_covers_them(scene, monkeypatch):
     """Where f changes as much from cells to cells as before, one more halving does not lead to the tolerance."""
     (complete, shapes) = solved(scene, monkeypatch)
-    monkeypatch.setattr(shorter_cells, "CHEAP_WORK", 0.0)
+    monkeypatch.setattr(ladder, "CHEAP_WORK", 0.0)
     (ended, fewer) = solved(scene, monkeypatch)
     assert fewer == shapes[: len(fewer)] and len(fewer) < len(shapes)
     assert abs(complete.coefficient / ended.coefficient - 1) < ended.uncertainty.numerical

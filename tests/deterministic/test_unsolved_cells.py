@@ -3,7 +3,7 @@
 import pytest
 
 import lubfric
-from lubfric.models.deterministic import problem, shorter_cells
+from lubfric.models.deterministic import pieces, problem, shorter_cells
 from lubfric.models.shared import checks
 
 SCENE = lubfric.load_scene("paper").with_(
@@ -20,7 +20,7 @@ def fails(*_, **__):
 
 def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
     solved = lubfric.friction(SCENE, SPEED)
-    monkeypatch.setattr(shorter_cells, "_refined", fails)
+    monkeypatch.setattr(pieces, "_refined", fails)
     unsolved = lubfric.friction(SCENE, SPEED)
     assert unsolved.decision.model == solved.decision.model == "deterministic"
     assert unsolved.uncertainty.numerical > 1.5 * solved.uncertainty.numerical
@@ -42,7 +42,7 @@ def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch):
     assert "the largest number that is solved" not in solved.uncertainty.text
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")
     assert "a narrow patch" in violation.recommendation
-    monkeypatch.setattr(shorter_cells, "_refined", fails)
+    monkeypatch.setattr(pieces, "_refined", fails)
     assert lubfric.friction(SCENE, SPEED).uncertainty.numerical == limited.uncertainty.numerical
 
 

@@ -16,8 +16,10 @@ from lubfric.models import DeterministicModel, PaperModel
 from lubfric.models.deterministic import (
     StripOnTwoGrids,
     change_by_flow,
+    ladder,
     levels,
     moving_point_work,
+    pieces,
     sample_coarsening_of,
     solve_strip,
     surface_and_map_coarsening,
@@ -114,15 +116,15 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
             f = 0.05 * (1 + (dx / 18) ** order)
             return replace(solved, result=replace(solved.result, coefficient=f, spacing=(1e-6 * dx,) * 2))
 
-        def ladder(*_, times=2, **length):
+        def refined(*_, times=2, **length):
             assert times == 2 or length["length"] < 42
-            return shorter.Piece(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
+            return pieces.Piece(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
 
         def solver(*_, on=on):
             return lambda coarsening, start: on(0.45 * coarsening[0])
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_, **__: replace(pair, resolved=on(3.6), longer=on(7.2)))
-        monkeypatch.setattr(shorter, "_refined", ladder)
+        monkeypatch.setattr(pieces, "_refined", refined)
         monkeypatch.setattr(shorter, "_solver_of_short_piece", solver)
         result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         truth = on(0.45).result.coefficient
@@ -130,8 +132,8 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         assert (len(result.shortest) > 4) == (order < 1)  # the short piece goes on to shorter cells where f needs them
         assert abs(result.numbers["coefficient"] / truth - 1) <= 1.1 * result.numerical <= 1.1 * most
     spent = sum(strip.work for piece in result.pieces for strip in piece) + sum(p.resolved.work for p in result.pairs)
-    monkeypatch.setattr(shorter, "FINER_WORK", 1.0)
-    monkeypatch.setattr(shorter, "STEPS_ON_FINER_CELLS", solved.result.report.iterations)
+    monkeypatch.setattr(ladder, "FINER_WORK", 1.0)
+    monkeypatch.setattr(ladder, "STEPS_ON_FINER_CELLS", solved.result.report.iterations)
     monkeypatch.setattr(shorter, "MOST_WORK_OF_POINT", spent + 5.5 * solved.work)  # .64 and 1 of 3 + 4 solves
     for rows in (100, 25):  # a piece of 22 correlation lengths; of 6, which is no longer than the last one
         solved = replace(
@@ -167,8 +169,8 @@ def test_where_shorter_cells_lower_f_no_part_of_it_changes_its_sign(monkeypatch)
 
         pair = StripOnTwoGrids(resolved=solved, longer=on(7.2))
         monkeypatch.setattr(levels, "solve_pair", lambda *_, pair=pair, **__: pair)
-        ladder = shorter.Piece([on(7.2), on(3.6), on(1.8)])
-        monkeypatch.setattr(shorter, "_refined", lambda *_, ladder=ladder, **__: ladder)
+        piece = pieces.Piece([on(7.2), on(3.6), on(1.8)])
+        monkeypatch.setattr(pieces, "_refined", lambda *_, piece=piece, **__: piece)
         result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), speed, DeterministicModel()).levels
         numbers = result.numbers
         assert result.pieces and numbers["coefficient"] == pytest.approx(on(1.8).result.coefficient, rel=1e-9)
@@ -262,10 +264,10 @@ def test_a_given_grid_ends_at_the_cells_of_the_scene_and_the_advice_beyond_them_
     these are too long lowers the error."""
     numerics = {"model": "deterministic", "sampling_tolerance": 0.2}
     scene = lubfric.load_scene("paper").with_(contact={"spacing": 2e-6}, numerics=numerics)
-    for grid, tolerance, pieces in (("auto", 0.2, 0), ("given", 0.2, 1), ("auto", 0.01, 1)):
+    for grid, tolerance, expected_pieces in (("auto", 0.2, 0), ("given", 0.2, 1), ("auto", 0.01, 1)):
         there = lubfric.prepare(scene.with_(numerics={"grid": grid, "tolerance": tolerance}))
         result = solve_to_tolerance(there, 0.03, DeterministicModel()).levels
-        assert len(result.pieces) == pieces
+        assert len(result.pieces) == expected_pieces
         assert all(piece.on_shortest_cells.result.spacing == pytest.approx((2e-6, 2e-6)) for piece in result.pieces)
     point = lubfric.friction(scene, 0.03)
     (note,) = (each for each in point.validity if each.what == "estimated numerical error of f")

@@ -53,6 +53,7 @@ from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
+from .ladder import EndOfCells
 from .levels import Levels, mean, samples_over_time
 from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
@@ -176,8 +177,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             notes=(
                 *_sample_notes(prepared, sampling_error, levels),
                 *filter(None, [limit_in_words(by_limit), of_heat]),
-                *_unsolved_in_words(levels),
-                *([_too_many_cells_in_words(prepared.sample)] if levels.has_too_many_cells else []),
+                *_end_of_cells_in_words(prepared.sample, levels.end_of_cells),
             ),
             area_needed=_area_needed(prepared, sampling_error, levels),
         ),
@@ -339,11 +339,14 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     )
 
 
-def _unsolved_in_words(levels: Levels) -> list[str]:
-    """Return that shorter cells were not solved, and, where the work of the point did not allow them, what reduces the error."""
-    texts = [UNSOLVED_CELLS.format(WITHIN_WORK if levels.lacks_work else "")] if levels.has_unsolved_cells else []
-    texts += [ENDED_CELLS] if levels.has_ended_cells else []
-    return [f"{text}; {MORE_WORK} to reduce it" if levels.lacks_work else text for text in texts]
+def _end_of_cells_in_words(sample: Sample, end: EndOfCells) -> list[str]:
+    """Return that shorter cells of ``sample`` were not solved, and what reduces the error; [] where they are not needed."""
+    if end is EndOfCells.NOT_NEEDED:
+        return []
+    if end is EndOfCells.TOO_MANY:
+        return [TOO_MANY_CELLS.format(sample.piece_in_words(), MOST_GRID_CELLS, _fewer_cells(sample))]
+    text = UNSOLVED_CELLS.format(WITHIN_WORK if end.lacks_work else "") if end.is_failure else ENDED_CELLS
+    return [f"{text}; {MORE_WORK} to reduce it" if end.lacks_work else text]
 
 
 def _share_given_off(results: Sequence[DeterministicResult]) -> float:
@@ -357,9 +360,9 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
     sample = prepared.sample
     if has_moving_roughness(scene):
         return shorter_cells_in_motion(prepared, levels.pairs[0]).removesuffix(",")
-    if levels.has_too_many_cells:
+    if levels.end_of_cells is EndOfCells.TOO_MANY:
         return _fewer_cells(sample)
-    if levels.lacks_work:
+    if levels.end_of_cells.lacks_work:
         return f"{MORE_WORK} for shorter cells"
     if not sample.cells.is_native and not sample.refines_in_place:
         return "set numerics.grid = 'given' for shorter cells"
@@ -393,20 +396,15 @@ def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no tolerance does."""
     if has_moving_roughness(prepared.scene):
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
-    narrower = _fewer_cells(prepared.sample) if levels.has_too_many_cells else SMALLER_SOLVE_TOLERANCE
-    if levels.lacks_work:
-        narrower = MORE_WORK
+    if levels.end_of_cells is EndOfCells.TOO_MANY:
+        return f"{_fewer_cells(prepared.sample)} to reduce it"
+    narrower = MORE_WORK if levels.end_of_cells.lacks_work else SMALLER_SOLVE_TOLERANCE
     return f"{narrower} to reduce it"
 
 
 def _fewer_cells(sample: Sample) -> str:
     """Return what gives ``sample`` fewer cells, as text."""
     return SMALLER_PATCH if sample.refines_in_place else PATCH_IN_PLACE
-
-
-def _too_many_cells_in_words(sample: Sample) -> str:
-    """Return that shorter cells of ``sample`` are too many to be solved, and what to change."""
-    return TOO_MANY_CELLS.format(sample.piece_in_words(), MOST_GRID_CELLS, _fewer_cells(sample))
 
 
 def _why_no_sampling_error(prepared: Prepared, levels: Levels) -> str:

@@ -26,12 +26,14 @@ from .expected_friction import expected_friction, solved_ends_of_hardness
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
 from .expected_steps_in_time import StepFacts
 from .first_steps import FirstSteps
+from .ladder import SOFT_CELL_ERROR
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
 from .moving import film_half_width
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
+from .pieces import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP
 from .problem import are_soft, reach, why_too_many
-from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
+from .shorter_cells import PIECES_SHARE
 from .strip_on_two_grids import (
     MapCoarsening,
     coarsening_at_rest,

@@ -7,7 +7,7 @@
     level   what is solved                      where
     1       the control, by Eq. (8)             many strips, joined
     2       the deterministic model             a few of these strips
-    3       the same on cells half as long      pieces, half as long as a strip (`shorter_cells`)
+    3       the same on cells half as long      pieces, half as long as a strip (`pieces`)
     4       the same on a quarter               one piece, a sixth as long as a strip
 
 The control is by how much each strip differs from the many strips that Eq. (8) joins
@@ -45,9 +45,11 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
 from .counted_work import MOST_WORK_OF_POINT
+from .ladder import EndOfCells
+from .pieces import Piece, changed_by_pieces
 from .result import DeterministicResult
 from .rough_bodies import summit_control
-from .shorter_cells import NO_SHORTER_CELLS, Piece, changed_by_pieces, on_shorter_cells
+from .shorter_cells import NO_SHORTER_CELLS, on_shorter_cells
 from .strip import StripSolution, change_by_flow, thinned_less
 from .strip_on_two_grids import (
     StripOnTwoGrids,
@@ -134,10 +136,7 @@ class Levels:
     difference_error : relative standard error of f, by the difference between the models
     numerical : relative error of f, by the cells of the last level
     length : of all strips [m]
-    has_unsolved_cells : whether shorter cells were needed and did not converge
-    lacks_work : whether they would have taken more work than the point has
-    has_too_many_cells : whether they were needed and are too many
-    has_ended_cells : whether they were needed and did not pay
+    end_of_cells : why there are no shorter cells
     note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
     by_summits : the correction of f by the summits, relative to the f of this estimate
     """
@@ -156,11 +155,8 @@ class Levels:
     sampling_error: StandardError
     difference_error: StandardError
     numerical: float
+    end_of_cells: EndOfCells
     length: float
-    has_unsolved_cells: bool = False
-    lacks_work: bool = False
-    has_too_many_cells: bool = False
-    has_ended_cells: bool = False
     note: str = ""
     by_summits: float = 0.0
 
@@ -327,15 +323,12 @@ def levels_of(
         control_strips=estimate.control_strips,
         pairs=tuple(pairs),
         pieces=shorter.pieces,
-        has_unsolved_cells=shorter.has_unsolved,
-        lacks_work=shorter.lacks_work,
-        has_too_many_cells=shorter.has_too_many,
-        has_ended_cells=shorter.has_ended,
         shortest=shorter.shortest,
         finest=shorter.strip or first,
         sampling_error=sampling_error,
         difference_error=difference_error,
         numerical=shorter.error,
+        end_of_cells=shorter.end,
         length=prepared.sample.line_length(max(estimate.control_strips, len(pairs))),
         note="; ".join(notes),
         by_summits=estimate.by_summits,

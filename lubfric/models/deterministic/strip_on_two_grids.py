@@ -130,7 +130,7 @@ def shortened(scene: Scene, sample: Sample, map_coarsening: MapCoarsening) -> Ma
     same along an axis whose cells are `MUCH_SHORTER` than those along the other, unless ``numerics.grid`` requests
     native cells."""
     (fx, fy) = map_coarsening
-    halves = MapCoarsening((max(1, fx // 2), max(1, fy // 2)))
+    halves = MapCoarsening(halved(map_coarsening))
     if scene.numerics.grid == "given":
         return halves
     (lx, ly) = sample.correlation_lengths
@@ -140,6 +140,12 @@ def shortened(scene: Scene, sample: Sample, map_coarsening: MapCoarsening) -> Ma
     return MapCoarsening(
         (fx if along <= MUCH_SHORTER * across else halves[0], fy if across <= MUCH_SHORTER * along else halves[1])
     )
+
+
+def halved(coarsening: tuple[int, int]) -> tuple[int, int]:
+    """Return half the ``coarsening``, at least 1."""
+    (along, across) = coarsening
+    return max(1, along // 2), max(1, across // 2)
 
 
 def longer_than(surface: Surface, map_coarsening: MapCoarsening, *, is_moving: bool = False) -> MapCoarsening:
