@@ -148,10 +148,13 @@ def with_interval(value: float, low: float, high: float, level: str = " at 95 %"
     numbers without a unit that are all smaller than `SMALLEST_PLAIN` have a common power of ten. Without a finite interval
     the value is alone, with three digits.
     """
-    if not _is_interval(low, high):
-        return plain_number(value, unit)
-    head = _shown(value, low, high, unit)[0]
-    return f"{head} ({interval_in_words(low, high, unit, value)}{level})"
+    head = beside_interval(value, low, high, unit)
+    return f"{head} ({interval_in_words(low, high, unit, value)}{level})" if _is_interval(low, high) else head
+
+
+def beside_interval(value: float, low: float, high: float, unit: str = "-") -> str:
+    """Return a ``value`` in the decimals and the unit in which `with_interval` writes it, without its interval."""
+    return _shown(value, low, high, unit)[0] if _is_interval(low, high) else plain_number(value, unit)
 
 
 def as_beside(part: float, value: float, low: float, high: float, unit: str) -> str:

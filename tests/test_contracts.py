@@ -28,7 +28,7 @@ from lubfric.models import (
 )
 from lubfric.models.deterministic import DeterministicSolution, answer
 from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_joined_strips
-from lubfric.output import describe_scene, main, report, study_report
+from lubfric.output import budget_bars, describe_scene, main, study_answer, study_report
 from lubfric.quantities import CHOICES, COLUMNS
 from lubfric.samples import Cells, Sample
 
@@ -402,10 +402,10 @@ def test_an_input_that_is_not_given_is_named_by_its_label(named, monkeypatch, tm
     monkeypatch.setattr("lubfric.scene.scene.ASSUMED_IN_A_RANGE", (key,))
     scene = named.with_(lubricant={"shear_modulus": given})
     curve = lubfric.stribeck(scene, [0.01, 0.03])
-    bars = report.budget_labels([curve.points[0]])
+    bars = budget_bars.budget_labels([curve.points[0]])
     assert bars.get("not given") == (f"{COLUMNS[key].label} (not given)" if missing else None)
     study = lubfric.study(scene, {}, speeds=[0.03])
-    page = study_report.study_page(study, {}, study_report.answer_lines(study)).decode()
+    page = study_report.study_page(study, {}, study_answer.answer_lines(study)).decode()
     assert ("elastic shear modulus of the film not given -10 to +20 %" in page) == bool(missing)
     assert (">elastic shear modulus of the film not given</th>" in page) == bool(missing)
     assert "boundary film not given" not in page

@@ -32,7 +32,7 @@ from ..quantities import (
     UncertaintyQuantities,
     described_in_doc,
 )
-from ..units import interval_in_words, with_interval
+from ..units import beside_interval, interval_in_words, with_interval
 
 # Today's names by the old ones.
 RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
@@ -269,7 +269,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         parts = self._in_words(self.budget_in_words["sampling"])
         shown = with_interval(coefficient, *self.interval)
         if self.without_sampling_in_words:  # its digits are known, though no interval is
-            shown = with_interval(coefficient, *self.interval_without_sampling).partition(" (")[0]
+            shown = beside_interval(coefficient, *self.interval_without_sampling)
         return f"f = {shown}; {parts}{unknown}"
 
     def _in_words(self, sampling_in_words: str) -> str:

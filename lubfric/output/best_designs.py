@@ -20,8 +20,8 @@ from ..studies import (
     name_of,
     operating_keys,
 )
-from ..units import interval_in_words, with_interval
-from .report import INTERVAL_OF_F, table
+from ..units import beside_interval, interval_in_words, with_interval
+from .markup import INTERVAL_OF_F, table
 
 # Combinations that a sentence names. A choice: more makes a table of a text.
 MOST_NAMED = 3
@@ -149,7 +149,7 @@ def best_table(result: StudyResult) -> str:
         return ""
     rows = []
     for one in best_ones[:MOST_CONDITIONS]:
-        f = with_interval(one.value, *one.interval).partition(" (")[0]
+        f = beside_interval(one.value, *one.interval)
         interval = interval_in_words(*one.interval, value=one.value)
         texts = (condition_in_words(one.condition), values_in_words(one.design), f, interval, str(one.row))
         cells = "".join(f"<td>{escape(text)}</td>" for text in texts)

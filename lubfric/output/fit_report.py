@@ -15,21 +15,15 @@ from ..models.shared import LARGE_NUMERICAL_ERROR, percent, sentence
 from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
 from ..units import converted, in_unit_of, interval_in_words, plain_number, printed, unit_of_largest, with_interval
+from .curve_answer import model_in_words
+from .effects_and_warnings import effects_table, warnings_and_notes
 from .inputs import INPUT_SECTIONS
+from .inputs_as_given import inputs_as_given
+from .markup import bullets, number_cells, paragraphs, picture, table
+from .methods import facts_table, scene_in_words
 from .page import framed
-from .report import (
-    bullets,
-    effects_table,
-    inputs_as_given,
-    model_in_words,
-    paragraphs,
-    picture,
-    scene_in_words,
-    status_kind,
-    table,
-    warnings_and_notes,
-)
-from .study_report import MOST_ROWS
+from .status import status_kind
+from .study_tables import MOST_ROWS
 
 FIT_CAPTION = "Measured points and the fitted curve, and below the deviations of the points from it"
 
@@ -187,7 +181,7 @@ def _parameters_table(result: FitResult) -> str:
             if key in result.profiles or not move
             else in_unit_of(float(move), result.values[key], unit if key != OIL_TEMPERATURE else "K"),
         ]
-        body = "".join(f'<td class="number">{escape(text)}</td>' for text in cells)
+        body = number_cells(cells)
         parts = escape(key).replace(".", ".<wbr>").replace("_", "_<wbr>")  # a narrow column breaks the key there
         rows.append(f'<td>{escape(_label(key))}<br><span class="key">{parts}</span></td>{body}')
     heads = [
@@ -275,7 +269,7 @@ def _points_table(result: FitResult) -> str:
         cells.append(interval_in_words(float(low[i]), float(high[i])) if result.describes_data else "not valid")
         cells.append(f"{100 * (1 - fitted / f):+.1f} %")
         cells.append(title_of(result.points[i].decision.model) if result.points else "-")
-        rows.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
+        rows.append(number_cells(cells))
     more = "" if len(rows) == measured.x.size else f"<p>{len(rows)} of {measured.x.size} points; fit.json has all.</p>"
     return table(heads, rows) + more
 
@@ -315,15 +309,15 @@ def _made(record: Mapping[str, Any]) -> str:
     import scipy
 
     versions = {"lubfric": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
-    rows = [*versions.items(), *((f"SHA-256 of {path}", checksum) for path, checksum in record["sha256"].items())]
-    rows += [
+    rows = [
+        *versions.items(),
+        *((f"SHA-256 of {path}", checksum) for path, checksum in record["sha256"].items()),
         ("curves of the fit, without those of the search", record["curves"]),
         ("wall-clock time", f"{record['seconds']:.3g} s"),
+        ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
     ]
-    rows += [("processor time, all processes together", f"{record['processor_seconds']:.3g} s")]
-    lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
     note = (
         f"<p><code>{escape(record['command'])}</code> computes the same numbers with the versions and files below. fitted.toml is the "
         "scene with the fitted values, fit.json the record; the folder keeps every solved point.</p>"
     )
-    return note + table(("", ""), lines)
+    return note + facts_table(rows)

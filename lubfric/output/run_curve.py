@@ -48,13 +48,14 @@ from .commands import (
     say,
 )
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
+from .curve_answer import gap_notes, model_in_words
 from .describe import SceneEstimate, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, read_contact, vtk_bytes
 from .fit_picture import FIT, plot_fit, read_fit
+from .operating_point import operating_point_not_solved, operating_point_of
 from .picture_options import LINES, PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
-from .report import gap_notes, model_in_words, operating_point_not_solved, operating_point_of
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR, names_of_run
 from .study_pictures import plot_study, solved_so_far
 

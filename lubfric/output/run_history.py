@@ -14,9 +14,9 @@ from ..time import RunEstimate, TransientResult, fastest_of_run, in_motion, rais
 from . import commands
 from .describe import FILES_SECONDS
 from .fields import npz_bytes
+from .history_answer import history_answer
 from .pictures import animate, plot_history
 from .progress import ProgressLine
-from .report import history_answer
 from .run_files import names_of_run
 from .time_left import TimeLeft
 

@@ -21,9 +21,9 @@ from ..units import converted, number_of, plain_number, printed, unit_for, with_
 from .command_line import scene_of
 from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, references, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
+from .markup import number_cells, picture, table
 from .page import framed
 from .progress import ProgressLine
-from .report import picture, table
 from .run_files import BIBTEX_FILE
 
 # Files of the folder; the last says that the others are complete.
@@ -241,5 +241,5 @@ def _table(result: RunIn) -> str:
                 with_interval(float(v), float(ends[0]), float(ends[1]), "", unit) for v, ends in zip(values, intervals)
             ]
             cells.append([*nothing, *shown])
-    rows = ["".join(f'<td class="number">{escape(text)}</td>' for text in row) for row in zip(*cells)]
+    rows = [number_cells(row) for row in zip(*cells)]
     return table(heads, rows)

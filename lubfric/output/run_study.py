@@ -43,8 +43,10 @@ from .fit_report import fit_page
 from .progress import ProgressLine
 from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
+from .study_answer import answer_lines, planned_point_in_words
 from .study_pictures import STUDY_PICTURE, plot_study
-from .study_report import answer_lines, planned_point_in_words, study_page, tolerance_lines, warning_lines
+from .study_report import study_page
+from .study_warnings import tolerance_lines, warning_lines
 from .time_left import TimeLeft
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from small_study import SCENE as SMALL_SCENE
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, described_scene, main
-from lubfric.output.report import inputs_as_given as input_tables
+from lubfric.output.inputs_as_given import inputs_as_given as input_tables
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 
 HEAVY = lubfric.load_scene("paper").with_(

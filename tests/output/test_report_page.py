@@ -17,8 +17,10 @@ from scipy.special import stdtrit
 import lubfric
 from lubfric.models.shared import checks
 from lubfric.output import main, orders_of_magnitude
+from lubfric.output.history_table import evenly_by_change
+from lubfric.output.inputs_as_given import inputs_as_given
 from lubfric.output.missed_tolerances import MissedTolerance, missed_tolerances
-from lubfric.output.report import evenly_by_change, inputs_as_given, shortfalls
+from lubfric.output.status import shortfalls
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]

@@ -7,7 +7,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.models.shared import Assumption, Violation
-from lubfric.output.report import missed_by_run
+from lubfric.output.status import missed_by_run
 from lubfric.scene import Harmonic, Transient
 
 SPEED = Harmonic(mean=0.1, amplitude=0.02, frequency=1000.0)

@@ -9,7 +9,7 @@ from matplotlib.image import imread
 
 import lubfric
 from lubfric.estimate import FrictionResult
-from lubfric.output import report, run_curve
+from lubfric.output import curve_answer, run_curve
 from lubfric.output.pictures import plot_surface
 
 PAPER = lubfric.load_scene("paper")
@@ -78,9 +78,9 @@ def test_a_curve_by_two_models_says_which_points_are_by_which(monkeypatch):
     curve = SimpleNamespace(
         SWEPT=("ratio", "S", "", "slide-roll ratios"), ratio=np.array([ratio for ratio, _ in ratios]), points=points
     )
-    (sentence,) = report._change_of_model(curve)
+    (sentence,) = curve_answer.change_of_model(curve)
     assert "at 2 slide-roll ratios, 0 and 0.5 by the long cells" in sentence
     assert "at 3 slide-roll ratios, 0.1 to 0.3 by the load-sharing model" in sentence and "jump" in sentence
     curve.points = points[1:4]
     curve.ratio = curve.ratio[1:4]
-    assert report._change_of_model(curve) == []
+    assert curve_answer.change_of_model(curve) == []

@@ -21,7 +21,7 @@ from lubfric.models.shared import (
     added_changes,
     below_and_above,
 )
-from lubfric.output import report
+from lubfric.output import budget_bars
 from lubfric.output.run_curve import _doubts
 from lubfric.quantities import OF_UNCERTAINTY
 from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
@@ -232,7 +232,7 @@ def test_the_numerical_part_says_what_narrows_it():
 
 
 def test_the_report_shows_every_part_of_the_budget():
-    assert set(report.BUDGET) == set(report.BUDGET_ON_LONG_CELLS) == set(PARTS) == set(Uncertainty().budget)
+    assert set(budget_bars.BUDGET) == set(budget_bars.BUDGET_ON_LONG_CELLS) == set(PARTS) == set(Uncertainty().budget)
     assert {part.quantity for part in PARTS.values()} <= set(OF_UNCERTAINTY)
 
 

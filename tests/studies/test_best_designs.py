@@ -10,7 +10,7 @@ import pytest
 from small_study import SCENE, violations_at
 
 import lubfric
-from lubfric.output import best_designs, study_pictures, study_report
+from lubfric.output import best_designs, study_answer, study_pictures, study_report
 from lubfric.studies import StudyResult, design_keys, operating_keys
 
 LOADS = [3.0, 5.0, 8.0]
@@ -126,7 +126,7 @@ def test_curves_that_chose_their_speeds_are_not_compared():
 
 def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distinguished_from():
     result = made(F, WIDTH)
-    page = study_report.study_page(result, {}, study_report.answer_lines(result)).decode()
+    page = study_report.study_page(result, {}, study_answer.answer_lines(result)).decode()
     part = page.split("Lowest friction at each operating condition")[1].split("</table>")[0]
     rows = re.findall(r"<tr>(.*?)</tr>", part, re.DOTALL)[1:]
     for row, one in zip(rows, result.best(), strict=True):
@@ -144,7 +144,7 @@ def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distingu
 def test_a_study_says_what_a_smallest_film_of_1_nm_is(film):
     result = made(F, WIDTH)
     result = replace(result, columns=dict(result.columns) | {"min_film": np.full(F.shape, film)})
-    page = study_report.study_page(result, {}, study_report.answer_lines(result)).decode()
+    page = study_report.study_page(result, {}, study_answer.answer_lines(result)).decode()
     assert ("A smallest film of 1 nm is the gap that the deterministic model assumes" in page) == (film == 1e-9)
 
 
@@ -152,7 +152,7 @@ def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeyp
     cycle = {"load [N]": [3, 5], "speed [m/s]": [0.1, 0.2], "position [m]": [0, 1]}
     f = RANDOM.uniform(0.05, 0.1, (12, 2))
     result = made(f, 0.0 * f, vary={"surface.sq": np.linspace(5e-8, 2e-7, 12).tolist()}, speeds=None, points=cycle)
-    lines = study_report.answer_lines(result)
+    lines = study_answer.answer_lines(result)
     assert sum("mean power loss of the operating points" in line for line in lines) == 6
     assert any(line.startswith("The means of 6 other combinations are not listed") for line in lines)
     titles = []
@@ -235,12 +235,12 @@ def test_a_range_that_moves_one_design_alone_is_not_left_out():
 def test_the_answer_has_what_matters_most_and_then_the_best_design_and_says_where_one_wins_everywhere():
     f = F.copy()
     f[1, :, 0, :] = 0.01
-    (matters, *lines) = study_report.answer_lines(made(f, WIDTH))
+    (matters, *lines) = study_answer.answer_lines(made(f, WIDTH))
     assert matters.startswith("Part of the variance of ln f that each input alone explains")
     winner = "root mean square height Sq 100 nm, "
     assert lines[0].startswith(f"One design has the lowest f at all 6 operating conditions: {winner}")
     f[2, 1, 0, 0] = 0.005
-    (matters, *lines) = study_report.answer_lines(made(f, WIDTH))
+    (matters, *lines) = study_answer.answer_lines(made(f, WIDTH))
     assert lines[0].startswith(f"Of 6 operating conditions f is lowest with {winner}") and " at 5; with " in lines[0]
     assert "At all of them the lowest f has material 100Cr6." in lines[0]
     page = study_report.study_page(made(f, WIDTH), {}, [matters, *lines]).decode()
@@ -262,7 +262,7 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
             for end in ("lowest", "highest"):
                 if f"the {end} of measured" in effect.what:
                     changes[end, number] = effect.change
-    (line,) = (line for line in study_report.answer_lines(lubfric.study(plan)) if "measured oils" in line)
+    (line,) = (line for line in study_answer.answer_lines(lubfric.study(plan)) if "measured oils" in line)
     assert "At all points, by closed forms" in line and line.endswith("give lubricant.pressure_viscosity_coefficient.")
     stated = re.search(r"lowest value .* by up to (\S+) % \(at point (\d)\), the highest by up to (\S+) % \(at", line)
     worst = max((1, 2), key=lambda number: abs(changes["lowest", number]))

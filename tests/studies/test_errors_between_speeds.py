@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from test_adaptive import Made
 
-from lubfric.output.report import minimum_in_words
+from lubfric.output.curve_answer import minimum_in_words
 from lubfric.studies.choose import between
 from lubfric.studies.interpolate import Interpolant, knee_of, through
 

@@ -8,8 +8,11 @@ import pytest
 from small_study import SCENE, same, violations_at
 
 import lubfric
-from lubfric.output import main, report
-from lubfric.output.study_report import answer_lines, common_inputs, study_page, why_no_rises
+from lubfric.output import films_in_words, main
+from lubfric.output.study_answer import answer_lines
+from lubfric.output.study_inputs import common_inputs
+from lubfric.output.study_report import study_page
+from lubfric.output.study_tables import why_no_rises
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
@@ -321,9 +324,9 @@ def test_the_load_on_films_at_their_limit_is_stated_beside_the_asperity_load_rat
         "boundary_film_load": np.array([0.0, 20.0, 10.0, 10.0]),
         "saturated_film_load": np.array([92.0, 50.0, 50.0, np.nan]),
     }
-    assert "carry 50 to 92 % of the load at 2 of 4 points" in report.films_at_limit(loads)
-    assert "carry 92 % of the load;" in report.films_at_limit({name: load[:1] for name, load in loads.items()})
-    assert report.films_at_limit({name: load[2:] for name, load in loads.items()}) == ""
+    assert "carry 50 to 92 % of the load at 2 of 4 points" in films_in_words.films_at_limit(loads)
+    assert "carry 92 % of the load;" in films_in_words.films_at_limit({name: load[:1] for name, load in loads.items()})
+    assert films_in_words.films_at_limit({name: load[2:] for name, load in loads.items()}) == ""
 
 
 def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):

@@ -11,7 +11,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.study_report import why_no_intervals
+from lubfric.output.study_warnings import why_no_intervals
 from lubfric.units import with_interval
 
 SPEEDS = [0.01, 0.1]

@@ -22,7 +22,16 @@ import lubfric
 from lubfric import studies
 from lubfric._base.progress import report_progress
 from lubfric.models.shared import violations_by_numerical_error
-from lubfric.output import main, run_study, study_pictures, study_report
+from lubfric.output import (
+    main,
+    run_study,
+    status,
+    study_answer,
+    study_inputs,
+    study_pictures,
+    study_report,
+    study_warnings,
+)
 from lubfric.studies import result as study_result
 
 ROOT = Path(__file__).parents[2]
@@ -82,7 +91,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
     study_pictures.plot_study(tmp_path / "study.png", result)
-    assert (tmp_path / "study.png").stat().st_size > 5000 and len(study_report.answer_lines(result)) == 5
+    assert (tmp_path / "study.png").stat().st_size > 5000 and len(study_answer.answer_lines(result)) == 5
 
 
 SLIP = lubfric.Violation(what="slip", value=3.0, limit=5.0, unit="", consequence="why", recommendation="")
@@ -109,7 +118,7 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     assert list(effects) == list(parts) and [effect.slope for effect in effects.values()] == [-1, 1]
     for key, effect in effects.items():
         assert effect.share == pytest.approx(parts[key] / sum(parts.values()), rel=1e-12)
-    (line,) = (line for line in study_report.answer_lines(result) if "variance" in line)
+    (line,) = (line for line in study_answer.answer_lines(result) if "variance" in line)
     assert (
         "total load 88 % (on average f falls with it); viscosity at ambient pressure 12 % (on average f rises with it)."
         in line
@@ -138,7 +147,7 @@ def test_shares_have_the_range_that_the_errors_of_f_leave(error, reached):
         assert (low < by_chance < high) == reached
     wide = replace(result, columns=result.columns | errors | {"model_error": np.full(result.status.shape, np.nan)})
     assert np.isnan([effect.interval for effect in studies.main_effects(wide).values()]).all()
-    assert "with its range" not in "".join(study_report.answer_lines(wide))
+    assert "with its range" not in "".join(study_answer.answer_lines(wide))
 
 
 def test_inputs_that_vary_together_have_no_shares_of_their_own():
@@ -163,11 +172,11 @@ def test_shares_of_a_table_of_points_are_those_of_its_columns():
 
 def test_a_grade_that_is_varied_is_no_common_input():
     graded = SMALL.with_(lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60})
-    page = study_report.common_inputs(
+    page = study_inputs.common_inputs(
         lubfric.plan_study(graded, {"lubricant.grade": ["ISO VG 46", "ISO VG 100"]}, [0.3])
     )
     assert "ISO VG" not in page
-    assert "ISO VG 46" in study_report.common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
+    assert "ISO VG 46" in study_inputs.common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
 
 
 @pytest.mark.parametrize(
@@ -333,12 +342,12 @@ def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
     result = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
     (note,) = violations_by_numerical_error(0.07, 0.05, "less")
     violations = violations_at(result.status.shape, (), (note,), (note,))
-    (line,) = study_report.tolerance_lines(replace(result, violations=violations))
+    (line,) = study_warnings.tolerance_lines(replace(result, violations=violations))
     assert line.startswith("At points 2 and 3: estimated numerical error of f is 7 %, above 5 %.")
     assert "study.csv" not in line
     many = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
     every_second = violations_at(many.status.shape, *[(), (note,)] * 20)
-    (line,) = study_report.tolerance_lines(replace(many, violations=every_second))
+    (line,) = study_warnings.tolerance_lines(replace(many, violations=every_second))
     assert "At 20 of 40 points: " in line and line.endswith("column validity of study.csv has all of them.")
 
 
@@ -395,7 +404,7 @@ def test_a_study_states_both_sides_of_the_parts_of_an_interval():
     plain = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.05 * scene.bodies.load)
     sides = {"model_error": [0.1, 0.2], "model_error_low": [0.1, 0.05], "model_error_high": [0.1, 0.2]}
     result = with_columns(plain, interval_low=[0.04, 0.09], interval_high=[0.06, 0.13], **sides)
-    (line,) = (line for line in study_report.answer_lines(result) if "relative errors of the largest f" in line)
+    (line,) = (line for line in study_answer.answer_lines(result) if "relative errors of the largest f" in line)
     assert "model-form -5 to +20 %" in line
     page = study_report.study_page(result, {}, []).decode()
     rows = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", page)]
@@ -414,9 +423,9 @@ def test_texts_of_a_study_are_gathered_once_for_console_and_report(monkeypatch):
     result = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.1)
     result = replace(result, violations=violations_at(result.status.shape, *[(SLIP,)] * 2))
     page = study_report.study_page(result, {}, []).decode()
-    assert "slip is 3" in page and study_report.warning_lines(result) and study_report.tolerance_lines(result) == []
+    assert "slip is 3" in page and study_warnings.warning_lines(result) and study_warnings.tolerance_lines(result) == []
     assert len(cells) == 1
-    assert not study_report.warning_lines(replace(result, violations=violations_at(result.status.shape)))
+    assert not study_warnings.warning_lines(replace(result, violations=violations_at(result.status.shape)))
 
 
 @pytest.mark.parametrize("model_tolerance", [1e-3, 1.0])
@@ -433,11 +442,11 @@ def test_console_report_and_table_count_the_same_warnings_and_notes(tmp_path, mo
     assert ["note: model-form error of f is" in cell for cell in cells] == above.tolist()
     assert above.any() == (model_tolerance < 1)
     counts = f"arnings at {warnings} of 6 points{f', notes at {notes} ' if notes else '; '}"
-    (head, *_) = study_report.warning_lines(result) or ["warnings at 0 of 6 points; "]
+    (head, *_) = study_warnings.warning_lines(result) or ["warnings at 0 of 6 points; "]
     page = study_report.study_page(result, {}, []).decode()
     assert counts in head and warnings == result.with_warnings
-    assert ("model-form error of f is above its tolerance" in study_report.study_status(result)) == above.any()
-    assert any("model-form" in line for line in study_report.tolerance_lines(result)) == above.any()
+    assert ("model-form error of f is above its tolerance" in status.study_in_words(result)) == above.any()
+    assert any("model-form" in line for line in study_warnings.tolerance_lines(result)) == above.any()
     assert (counts in page) == bool(warnings or notes)
 
 
@@ -449,7 +458,7 @@ def test_points_that_share_a_reason_are_one_line_with_the_worst():
     warnings = [lubfric.Violation(what="film pressure", value=pressure, **known) for pressure in pressures]
     at_points = [(warning, SLIP) if n in (4, 7) else (warning,) for n, warning in enumerate(warnings)]
     result = replace(result, violations=violations_at(result.status.shape, *at_points))
-    head, *lines = study_report.warning_lines(result)
+    head, *lines = study_warnings.warning_lines(result)
     assert head.startswith("warnings at 40 of 40 points; study.csv")
     assert [line.strip() for line in lines] == [
         "at points 1 to 40: film pressure is 1.2 to 1.59 GPa (at point 40), above 1 GPa",

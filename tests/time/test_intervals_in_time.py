@@ -15,7 +15,7 @@ import lubfric
 from lubfric._base import read_table
 from lubfric.models.load_sharing import MomentResponse
 from lubfric.output import describe_scene, main
-from lubfric.output.report import history_answer
+from lubfric.output.history_answer import history_answer
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.time import PARTS_NOT_IN_TIME
 

@@ -1,0 +1,91 @@
+"""The uncertainty budget of f as bars: of a point, and of the mean of a run in time."""
+
+import math
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from ..estimate import PARTS, FrictionResult
+from ..models.shared import percent_of_sides, sentence
+from ..quantities import COLUMNS
+from ..time import TransientResult
+from .markup import bullets
+
+# Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
+BUDGET = {name: part.label for name, part in PARTS.items()}
+# The same where the error of the cells is a model-form one.
+BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
+
+
+def names_of_inputs(keys: Iterable[str]) -> str:
+    """Return the labels of the inputs of these ``keys`` (section.key), each once; "input" where there is none."""
+    labels = (COLUMNS[key].label if key in COLUMNS else key for key in keys)
+    return " and ".join(dict.fromkeys(labels)) or "input"
+
+
+def budget_labels(points: Sequence[FrictionResult], parts: dict[str, str] = BUDGET) -> dict[str, str]:
+    """Return what the ``parts`` of the uncertainty budget of ``points`` are called; inputs that the scene does not give by
+    their labels, and no such part where all are given."""
+    missing = [known.missing_input for known in (point.uncertainty for point in points) if known.not_given]
+    labels = {name: text.format(names_of_inputs(missing)) for name, text in parts.items()}
+    return {name: text for name, text in labels.items() if name != "not given" or missing}
+
+
+def point_budget(point: FrictionResult, place: str) -> str:
+    """Return the uncertainty budget of f at a ``point`` of a curve, which lies at a ``place``."""
+    known = point.uncertainty
+    labels = budget_labels([point], BUDGET_ON_LONG_CELLS if point.decision.counts_cells_as_model_error else BUDGET)
+    notes = (known.largest_part, *known.notes)
+    return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels, is_cut=bool(known.cut))
+
+
+def history_budget(result: TransientResult) -> str:
+    """Return the uncertainty budget of the mean friction coefficient of a run in time."""
+    sides = result.average().budget if result.time.size > 1 else {}
+    if not sides:
+        return ""
+    values = {name: max(below, above) for name, (below, above) in sides.items()}
+    words = {name: percent_of_sides(both, values[name]) for name, both in sides.items()}
+    notes = [
+        "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at most "
+        "transient.tolerance, is not included",
+        "The errors keep their sign at all times, so the interval of a mean is the mean of the intervals",
+        *result.not_in,
+    ]
+    if math.isfinite(values["model-form"]):
+        notes.insert(1, "The model-form error is that of steady motion at the same film, asperity load ratio and heat")
+    return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
+
+
+def _budget(
+    values: dict[str, float],
+    words: dict[str, str],
+    subject: str,
+    notes: Iterable[str],
+    labels: dict[str, str],
+    *,
+    is_cut: bool = False,
+) -> str:
+    """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
+    to f; ``words``: the parts as text; ``labels``: what each is called; ``is_cut``: whether ``notes`` have a limit of the interval."""
+    longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
+    shown = {name: label for name, label in labels.items() if name in values}
+    rows = "".join(
+        f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
+        f"<span>{escape(words[name])}</span>"
+        if math.isfinite(values[name])
+        else f"<span>{label}</span><span></span><span>not known</span>"
+        for name, label in shown.items()
+    )
+    lines = bullets([sentence(note) for note in notes if note])
+    unknown = {name for name in shown if not math.isfinite(values[name])}
+    combined = "the interval of f combines them"
+    if unknown:
+        combined = "the interval of f combines those that are known"
+    if unknown - {"model-form"}:
+        combined = "one of them is not known, so f has no interval"
+    elif is_cut:
+        combined += ", within the limits stated below"
+    return (
+        f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; {combined}.</p>"
+        f'<div class="budget">{rows}</div>{lines}'
+    )

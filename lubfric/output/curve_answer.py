@@ -1,0 +1,239 @@
+"""The answer of a Stribeck or traction curve, in sentences."""
+
+import math
+
+import numpy as np
+
+from ..errors import InputError
+from ..estimate import FrictionResult
+from ..models import title_of
+from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, percent
+from ..quantities import COLUMNS, counted, worded_value
+from ..scene import Scene
+from ..studies import CurveResult, StribeckResult, TractionResult
+from ..time import TransientResult
+from ..units import plain_number, with_interval
+from .budget_bars import names_of_inputs
+from .describe import is_among, rolling_in_words
+from .operating_point import operating_point_not_solved, operating_point_of, place_on_curve
+
+# Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
+FULL_FILM_PART = 0.01
+# Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
+MOST_STEP = 10.0
+# Factor on the speed, of which the change of f is stated. A choice: any other is as good.
+FASTER = 1.1
+# Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
+LARGEST_BETWEEN = 0.5
+# Which force f is, where a reader may ask for its sign.
+SIGN_OF_F = (
+    "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 ([surface], U (1 - "
+    "S/2)), over the load: positive where it resists the sliding, at either sign of the slide-roll ratio S. The rolling part raises f "
+    "at positive S, and lowers it, even below 0, at negative S."
+)
+# What is known of f where the sample is too short for an interval.
+WITHOUT_SAMPLING = (
+    "The 95 % interval is not known, because the sampling error is not known; the other errors alone give {}."
+)
+
+
+def curve_answer(
+    scene: Scene, curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float
+) -> list[str]:
+    """Return the answer of a curve in sentences: at the point nearest to the scene's own, whose surfaces slide at
+    ``sliding_speed`` [m/s], and over all."""
+    swept = curve.SWEPT[0]
+    own = operating_point_of(scene, swept)
+    values = getattr(curve, swept).tolist()
+    missing = operating_point_not_solved(scene, values, swept)
+    failed = [index for index in curve.errors if is_among(own, [values[index]])]
+    if failed:
+        missing = f"The scene's own {COLUMNS[swept].label}, {worded_value(swept, own)}, has no answer (see the status)."
+    if len(values) > 1 and not missing:
+        place += ", the operating point of the scene"
+    low, high = point.uncertainty.interval
+    unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
+    omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
+    sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
+    if missing:
+        sentences.append(f"{missing} The answer is for the nearest solved one.")
+    if others := point.uncertainty.without_sampling_in_words:
+        sentences.append(WITHOUT_SAMPLING.format(others))
+    sentences.append(_inputs_in_interval(point))
+    if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
+        sentences.append(SIGN_OF_F)
+    if point.decision.basis:
+        sentences.append(f"The model of this point is the {point.decision.basis}.")
+        sentences += change_of_model(curve)
+    low, high = point.power_loss_interval
+    loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
+    sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
+    if math.isfinite(point.lambda_ratio):
+        sentences[-1] += (
+            f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
+            f"{point.lambda_ratio:.3g}."
+        )
+        if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
+            sentences[-1] += (
+                f" The film carries the load, and the solved film is {plain_number(point.central_film, 'm')} thick at the "
+                f"centre, {point.film_to_roughness_ratio:.3g} times Sq."
+            )
+    share = point.contact_load / (point.contact_load + point.film_load)
+    rubbing = point.decision.contact_load_in_words.format(part=f"{100 * share:.3g} %")
+    if math.isfinite(point.mean_gap):
+        rubbing += f"; the mean separation of the surfaces is {plain_number(point.mean_gap, 'm')}"
+    sentences.append(f"{rubbing}.")
+    f = curve["coefficient"]
+    solved = np.flatnonzero(np.isfinite(f))
+    if solved.size > 1:
+        least = place_on_curve(curve, solved[f[solved].argmin()])
+        largest = place_on_curve(curve, solved[f[solved].argmax()])
+        ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
+        sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
+    return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
+
+
+def _inputs_in_interval(point: FrictionResult) -> str:
+    """Return in a sentence which inputs the interval of f of a ``point`` contains, and what is taken of all others."""
+    known = point.uncertainty
+    if not math.isfinite(known.sampling):
+        return ""
+    names = [*known.inputs_in_interval, *([known.missing_input] if known.not_given else [])]
+    labels = dict.fromkeys(names_of_inputs([name]) for name in names)
+    if not labels:
+        return "The interval contains no error of the inputs: all of them count as exact."
+    *first, last = labels
+    words = " and ".join(filter(None, (", ".join(first), last)))
+    ranges = "ranges" if first else "range"
+    return f"The interval contains the {ranges} of {words}. All other inputs count as exact."
+
+
+def change_of_model(curve: CurveResult) -> list[str]:
+    """Return in a sentence which points of a ``curve`` are by which model, and what that does to its numbers; none where all are
+    by the same."""
+    name, _, unit, plural = curve.SWEPT
+    places: dict[str, list[float]] = {}
+    for value, point in zip(getattr(curve, name).tolist(), curve.points):
+        if point is not None:
+            places.setdefault(model_of_point(point), []).append(value)
+    if len(places) < 2:
+        return []
+    parts = "; ".join(f"{at_values(values, unit, plural)} by the {model}" for model, values in places.items())
+    return [
+        f"Several models solved the points: {parts}. Each model has its own error, so numbers other than f, such as the smallest film "
+        "and the temperature rises, jump where the model changes."
+    ]
+
+
+def model_of_point(point: FrictionResult) -> str:
+    """Return what a ``point`` is by, as text."""
+    return model_in_words(point.decision.basis, point.decision.model)
+
+
+def model_in_words(basis: str, model: str) -> str:
+    """Return by which ``model`` a point is; the ``basis`` where it has one (`lubfric.models.shared.Decision`)."""
+    return basis or title_of(model)
+
+
+def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
+    """Return in a sentence how f and the lambda ratio of a ``point`` in mixed lubrication change with the speed, between the
+    solved speeds on both sides of it; none for other points, or where these are far apart.
+
+    At the same slide-roll ratio the equations of film and shear contain the viscosity in the product with the speed alone,
+    but for the heat and for the pressure-viscosity coefficient, which is held.
+    """
+    if not isinstance(curve, StribeckResult) or point.contact_load <= FULL_FILM_PART * (
+        point.contact_load + point.film_load
+    ):
+        return []
+    good = np.flatnonzero((curve["coefficient"] > 0) & (curve["lambda_ratio"] > 0) & (curve.speed * point.speed > 0))
+    size = np.abs(curve.speed)
+    slower = [index for index in good if size[index] < abs(point.speed)]
+    faster = [index for index in good if size[index] > abs(point.speed)]
+    if not slower or not faster:
+        return []
+    ends = [max(slower, key=lambda index: size[index]), min(faster, key=lambda index: size[index])]
+    (low, high) = size[ends]
+    if high > MOST_STEP * low:
+        return []
+    by_factor = math.log(FASTER) / math.log(high / low)
+    changes = []
+    for name in ("coefficient", "lambda_ratio"):
+        (first, last) = curve[name][ends]
+        changes.append(f"{100 * ((last / first) ** by_factor - 1):+.2g} %")
+    return [
+        f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} and the "
+        f"lambda ratio by {changes[1]}. As much more viscosity has the same effect, except for heat."
+    ]
+
+
+def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
+    """Return the lift-off speed of a curve over the speed in sentences, and how well f is known between its speeds; none
+    for too few points. ``point``: that of the answer."""
+    if not isinstance(curve, StribeckResult):
+        return []
+    try:
+        speed = curve.lift_off
+        low, high = curve.lift_off_range
+    except InputError:  # too few points, or in both directions
+        return []
+    if speed is None:
+        touching = np.nanmax(curve.contact_load[curve.speed != 0]) > 0
+        first = f"The lift-off speed is {'above' if touching else 'below'} the speeds solved."
+    elif math.isnan(speed):
+        first = (
+            f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
+            f"{high:.4g} m/s; "
+        )
+        inexact = curve.numerical_at_lift_off
+        first += (
+            f"the numerical error of f there, {percent(inexact)}, is too large to say where."
+            if inexact > LARGE_NUMERICAL_ERROR
+            else "solve more speeds between them to determine it."
+        )
+    else:
+        surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
+        known = with_interval(speed, low, high, " by the solved speeds alone", unit="m/s")
+        first = f"The lift-off speed, above which the film separates the surfaces, is {known}{surface}."
+    if curve.between > LARGEST_BETWEEN:
+        between = "Between some of the solved speeds f is not known."
+    else:
+        between = (
+            f"Between the solved speeds f is interpolated within {percent(curve.between)}, in addition to the errors of these points"
+            f"{largest_error_of_points(curve)}."
+        )
+    return [f"{first} {between} {minimum_in_words(curve)}"]
+
+
+def largest_error_of_points(curve: StribeckResult) -> str:
+    """Return how large half the 95 % interval of f at a point of a curve is at most, as text to be appended; "" where that is
+    not known, or f is near 0."""
+    if any(point is not None and point.uncertainty.is_near_zero for point in curve.points):
+        return ""
+    good = np.isfinite(curve.coefficient) & (curve.coefficient != 0)
+    low, high = curve.uncertainty.interval[good].T
+    widths = 0.5 * (high - low) / np.abs(curve.coefficient[good])
+    return f" (up to {percent(float(widths.max()))} at 95 %)" if np.isfinite(widths).all() else ""
+
+
+def minimum_in_words(curve: StribeckResult) -> str:
+    """Return in a sentence between which of the solved speeds f is least, as far as these bracket it."""
+    minimum = curve.minimum
+    solved = np.sort(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
+    low = float(solved[solved <= minimum.speeds[0]].max(initial=solved[0]))
+    high = float(solved[solved >= minimum.speeds[1]].min(initial=solved[-1]))
+    if minimum.is_bracketed:
+        f = with_interval(minimum.coefficient, *minimum.interval)
+        return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
+    more = "solve more speeds there, or let --speeds auto choose them"
+    if minimum.is_inside:
+        return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s; {more}."
+    outside = " and ".join(
+        name for name, reached in (("below", low <= solved[0]), ("above", high >= solved[-1])) if reached
+    )
+    return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
+
+
+def gap_notes(result: CurveResult | TransientResult) -> list[str]:
+    """Return a note for each range in which a traction curve does not determine f; none for other results."""
+    return [gap.text for gap in result.gaps] if isinstance(result, TractionResult) else []

@@ -1,0 +1,108 @@
+"""The tables of the points of a curve, and its formula."""
+
+from html import escape
+
+import numpy as np
+
+from ..models.shared import sentence
+from ..quantities import COLUMNS
+from ..scene import Scene
+from ..studies import CurveResult, Law, StribeckResult
+from ..units import beside_interval, converted, interval_in_words, unit_of_largest, with_interval
+from .budget_bars import budget_labels
+from .curve_answer import largest_error_of_points, model_of_point
+from .describe import is_among
+from .films_in_words import LOADS, films_at_limit, note_on_touching
+from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, column_heading, number_cells, number_or_dash, table
+from .operating_point import operating_point_of
+
+# columns of the operating table, after the swept quantity, f and its interval
+OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
+# What follows the scene's own speed or ratio in the table of a curve.
+OPERATING_POINT = " (operating point)"
+
+
+def operating_table(scene: Scene, curve: CurveResult) -> str:
+    """Return the table of all points: what was swept, f with its interval, and the numbers of the point. That of the scene's
+    own speed or ratio is named where there are others."""
+    swept = curve.SWEPT[0]
+    names = (swept, *OF_POINT)
+    values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
+    units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
+    shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
+    heads = [column_heading(swept, units[swept]), "f", INTERVAL_OF_F, *(column_heading(n, units[n]) for n in OF_POINT)]
+    heads.append(ASPERITY_LOAD_RATIO)
+    rows = []
+    for index, point in enumerate(curve.points):
+        place = f"{shown[swept][index]:.4g}"
+        if len(curve.points) > 1 and is_among(operating_point_of(scene, swept), [values[swept][index]]):
+            place += OPERATING_POINT
+        if point is None:
+            why = escape(str(curve.errors[index]))
+            rows.append(f'{number_cells([place])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
+            continue
+        low, high = point.uncertainty.interval
+        f = beside_interval(point.coefficient, low, high)
+        interval = interval_in_words(low, high, value=point.coefficient)
+        ratio = point.contact_load / (point.contact_load + point.film_load)
+        loss = converted(np.array(point.power_loss_interval), COLUMNS["power_loss"].unit, units["power_loss"])
+        numbers = [number_or_dash(shown[name][index]) for name in OF_POINT]
+        numbers[OF_POINT.index("power_loss")] = with_interval(
+            float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
+        )
+        rows.append(number_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
+    at_limit = films_at_limit({name: curve[name] for name in LOADS})
+    beside = f"<p>{escape(at_limit)}</p>" if at_limit else ""
+    return f"<h2>Operating points</h2>{beside}{table(heads, rows)}"
+
+
+def details_of_points(curve: CurveResult) -> str:
+    """Return the uncertainty budget of every point and the model that solved it, folded."""
+    swept = curve.SWEPT[0]
+    unit = unit_of_largest(getattr(curve, swept).tolist(), COLUMNS[swept].unit)
+    labels = budget_labels([point for point in curve.points if point is not None])
+    rows = []
+    for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
+        if point is not None:
+            words = point.uncertainty.budget_in_words
+            parts = [words[name] for name in labels]
+            forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
+            lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
+            numbers = [number_or_dash(number) for number in (*forces, *lengths)]
+            rows.append(number_cells([f"{value:.4g}", *parts, *numbers, model_of_point(point)]))
+    heads = [
+        column_heading(swept, unit),
+        *(label.partition(" (")[0] for label in labels.values()),
+        "asperity load F_C [N]",
+        "film load F_H [N]",
+        "boundary force [N]",
+        "shear force of the film [N]",
+        "mean separation [nm]",
+        "central separation [nm]",
+        "smallest film [nm]",
+        "model",
+    ]
+    touching = note_on_touching(point.min_film for point in curve.points if point is not None)
+    note = f"<p>{touching}</p>" if touching else ""
+    return f"<details><summary>Details of every point</summary>{note}{table(heads, rows)}</details>" if rows else ""
+
+
+def formula_of_curve(law: Law | str, curve: CurveResult) -> str:
+    """Return the formula of a curve over the speed, or why it has none, folded; "" for any other curve."""
+    if not law:
+        return ""
+    if isinstance(law, Law) and isinstance(curve, StribeckResult):
+        deviation, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        fastest = law.ranges["speed"][1]
+        warning = (
+            f'<p class="warning">{escape(sentence(law.warning.removeprefix("warning: ")))}</p>' if law.warning else ""
+        )
+        text = (
+            f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
+            f"most {deviation} from the curve through the solved points, which adds at most {within} between them to "
+            f"the errors of the points{largest_error_of_points(curve)}. Check "
+            f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
+        )
+    else:
+        text = f"<p>{escape(sentence(f'no formula was fitted: {law}'))}</p>"
+    return f"<details><summary>The curve as a formula</summary>{text}</details>"

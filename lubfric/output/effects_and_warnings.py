@@ -1,0 +1,72 @@
+"""The warnings of a result, and the effects that are not modelled."""
+
+from collections.abc import Container, Iterable, Sequence
+from html import escape
+
+import numpy as np
+
+from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, change_in_words, sentence
+from ..studies import CurveResult
+from ..time import TransientResult, effects_of_run, rolls
+from .describe import SceneEstimate
+from .markup import bullets, folded_notes, table
+from .operating_point import place_on_curve
+
+# What the page has where there are no warnings.
+NO_WARNINGS = "No checked limit of the model is exceeded."
+
+
+def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterable[str] = ()) -> str:
+    """Return the list of the warnings among the ``gathered`` violations, and below it that of the notes and the
+    ``further_notes``, each a sentence."""
+    known = list(gathered)
+    warnings = [sentence(each.text) for each in known if not each.is_note]
+    notes = [sentence(each.text_without_head) for each in known if each.is_note]
+    notes += map(sentence, further_notes)
+    return bullets(warnings, NO_WARNINGS, "warning") + folded_notes(bullets(notes), len(notes))
+
+
+def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, moments: Sequence[str] = ()) -> str:
+    """Return the table of the effects that are not modelled; ``moments``: of a run in time, when each is largest."""
+    if not effects:
+        where = place.partition(",")[0]
+        return f"<p>Each known effect changes f {escape(where)} by less than numerics.tolerance.</p>"
+    cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
+    rows = [
+        f"<td>{escape(sentence(effect.what))}</td>"
+        f'<td class="number">{change_in_words(*effect.changes)}</td>'
+        f"{moment}<td>{escape(sentence(effect.recommendation))}</td>"
+        for effect, moment in zip(effects, cells)
+    ]
+    head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
+    heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
+    return head + table(heads, rows, in_sentences=True)
+
+
+def effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
+    """Return the table of the effects that are not modelled and are not ``listed`` for the operating point, each at the point of
+    the curve where it changes f the most; "" where there are none."""
+    largest: dict[str, tuple[float, UnmodelledEffect, str]] = {}
+    for index, point in enumerate(curve.points):
+        if point is None:
+            continue
+        for effect in point.unmodelled_effects:
+            if effect.what in listed:
+                continue
+            change = float(np.nan_to_num(effect.largest_change * abs(point.coefficient)))
+            if effect.what not in largest or change > largest[effect.what][0]:
+                largest[effect.what] = (change, effect, place_on_curve(curve, index))
+    shown = sorted(largest.values(), key=lambda row: -row[0])
+    place = "at other points of the curve, each at that at which it changes f the most"
+    moments = [where.removeprefix("at ") for *_, where in shown]
+    return effects_table([effect for _, effect, _ in shown], place, moments) if shown else ""
+
+
+def history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
+    """Return the table of the effects that are not modelled, each at the output at which it changes f the most."""
+    effects = effects_of_run(prepared, result)
+    place = "of the run, each at the output at which it changes f the most"
+    if result.time.size < 2 or not rolls(result.columns).any():
+        effects = estimate.effects_over_time
+        place = "before the solve, each at the moment at which it changes f the most"
+    return effects_table([each.effect for each in effects], place, [each.moment_in_words for each in effects])

@@ -1,0 +1,44 @@
+"""What is said of special films: the gap of touching cells, and films at their limiting stress."""
+
+import math
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from ..models.deterministic import FLOOR
+from ..quantities import counted
+
+# What a smallest film of `FLOOR` is.
+GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
+# Relative rounding error of that gap as a mean over strips. A choice: any number between rounding and a nanometre does.
+FLOOR_ROUNDING = 1e-6
+# Loads that say what carries F_T.
+LOADS = ("contact_load", "film_load", "boundary_film_load", "saturated_film_load")
+# Part of the load on films at their limiting stress from which it is stated. A convention.
+LEAST_AT_LIMIT = 0.01
+
+
+def is_gap_of_touching(film: float) -> bool:
+    """Return whether a smallest ``film`` [m] is the gap that the deterministic model gives to touching cells."""
+    return math.isclose(film, FLOOR, rel_tol=FLOOR_ROUNDING)
+
+
+def note_on_touching(films: Iterable[float]) -> str:
+    """Return what a smallest film of 1 nm is, in a sentence; "" where none of the smallest ``films`` [m] is one."""
+    return f"A smallest film of 1 nm is {GAP_OF_TOUCHING}." if any(map(is_gap_of_touching, films)) else ""
+
+
+def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
+    """Return in a sentence how much of the load films at their limiting stress carry that are no part of the asperity load, by
+    the ``loads`` (`LOADS`) [N] of some points; "" where that is less than `LEAST_AT_LIMIT` everywhere or not known."""
+    (contact, film, boundary, saturated) = (loads[name] for name in LOADS)
+    shares = (saturated - np.maximum(contact - boundary, 0.0)) / (contact + film)
+    shares = shares[shares > LEAST_AT_LIMIT]
+    if not shares.size:
+        return ""
+    ends = " to ".join(dict.fromkeys(f"{100 * end:.2g}" for end in (shares.min(), shares.max())))
+    where = f" at {shares.size} of {counted(contact.size, 'points')}" if contact.size > 1 else ""
+    return (
+        f"Films sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio does not include "
+        "this load."
+    )

@@ -1,0 +1,141 @@
+"""The answer of a run in time, in sentences."""
+
+import numpy as np
+
+from ..models.shared import sentence
+from ..quantities import counted
+from ..scene import Scene, moment_in_words
+from ..time import TransientResult, in_motion, rolls, run_model_of
+from ..units import plain_number, with_interval, worded
+from .films_in_words import GAP_OF_TOUCHING, is_gap_of_touching
+from .markup import number_or_dash
+
+
+def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
+    """Return the answer of a run of ``scene`` in time in sentences; of one that is not ``complete`` what its outputs show."""
+    if result.time.size < 2:
+        return ["The run has no answer."]
+    mean = result.average()
+    f = result.coefficient
+    peak = largest_friction(result)
+    low, high = result.uncertainty.interval[peak]
+    first = float(result.time[0])
+    last = float(result.time[-1])
+    span = worded(last, "s") if first == 0.0 else f"the time from {worded(first, 's')} to {worded(last, 's')}"
+    when = (
+        f"over {span}" if mean.in_motion == 1 else f"while the surfaces move ({100 * mean.in_motion:.3g} % of {span})"
+    )
+    head = "" if complete else "The run has no valid answer. Its outputs so far show: "
+    film = plain_number(float(np.nanmin(result.min_film)), "m")
+    at_floor = f": {GAP_OF_TOUCHING}" if is_gap_of_touching(float(np.nanmin(result.min_film))) else ""
+    level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
+    mean_text = with_interval(mean.coefficient, *mean.interval, level)
+    sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
+    if result.model_form_unknown:
+        sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
+    range_ = with_interval(float(f[peak]), low, high, level)
+    sentences.append(f"The largest f is {range_}, at t = {_moment(result, peak)}.")
+    sentences.append(_largest_force(result))
+    power = result.power_loss
+    if np.isfinite(power).any():
+        loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
+        duration = last - first
+        (low, high) = mean.power_loss_interval
+        taken = with_interval(duration * mean.power_loss, duration * low, duration * high, unit="J")
+        sentences.append(
+            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in {worded(duration, 's')}."
+        )
+    sentences.append(
+        f"The smallest film thickness is {film}{at_floor}."
+        if run_model_of(scene).solves_rough_film
+        else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
+    )
+    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
+    if ratio.size:
+        sentences.append(
+            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies between "
+            f"{number_or_dash(float(ratio.min()))} and {number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
+        )
+    solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
+    if solved.size:
+        sentences.append(
+            f"The solved central separation lies between {number_or_dash(float(solved.min()))} and {number_or_dash(float(solved.max()))} "
+            "times Sq."
+        )
+    if result.start_in_words:
+        sentences.append(result.start_in_words)
+    return sentences
+
+
+def _moment(result: TransientResult, index: int) -> str:
+    """Return the time of an output, and the angle of rotation where it is known, as text."""
+    return moment_in_words(float(result.time[index]), float(result.angle_of_rotation[index]))
+
+
+def _without_lambda_ratio(result: TransientResult) -> str:
+    """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for none."""
+    count = int(np.sum(~rolls(result.columns)))
+    return f"; {counted(count, 'outputs')} without entrainment {'have' if count > 1 else 'has'} none" if count else ""
+
+
+def _largest_force(result: TransientResult) -> str:
+    """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a sentence."""
+    force = np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)
+    index = int(np.nanargmax(force))
+    load = float(result.load[index])
+    (low, high) = (load * float(end) for end in result.uncertainty.interval[index])
+    largest = with_interval(load * float(result.coefficient[index]), low, high, unit="N")
+    return f"The largest friction force is {largest}, at t = {_moment(result, index)}."
+
+
+def _largest_power_loss(result: TransientResult) -> str:
+    """Return the largest power loss of a run, with its interval where that is known, and its time, as text."""
+    columns = result.columns
+    index = int(np.nanargmax(result.power_loss))
+    (low, high) = (float(columns[f"power_loss_{end}"][index]) for end in ("low", "high"))
+    largest = with_interval(float(result.power_loss[index]), low, high, unit="W")
+    return f"the largest {largest} at t = {_moment(result, index)}"
+
+
+def _moment_of_least_film(result: TransientResult) -> str:
+    """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
+    index = int(np.nanargmin(result.min_film))
+    film = 1.0 - float(result.contact_load[index] / result.load[index])
+    if film <= 0.0:
+        return f"at t = {_moment(result, index)}, where asperities carry all of the load"
+    others = " and asperities carry the rest" if film < 1.0 else ""
+    return f"at t = {_moment(result, index)}, where it carries {100 * film:.3g} % of the load{others}"
+
+
+def history_notes(scene: Scene, result: TransientResult) -> list[str]:
+    """Return what a reader of f and of its mean should know: which model answers, and where a steady point may have a
+    narrower interval; and why f is negative at some times."""
+    notes = [_model_of_run(scene, result)]
+    negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0) & in_motion(result.columns)))
+    if negative:
+        notes.append(
+            f"f is the force on surface 2 against its sliding, over the load. It is negative at "
+            f"{counted(negative, 'outputs')}, where the rolling resistance of this surface exceeds the friction of "
+            "sliding; the power loss includes both surfaces."
+        )
+    return notes
+
+
+def _model_of_run(scene: Scene, result: TransientResult) -> str:
+    """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may have a
+    narrower interval."""
+    answers = f"The {run_model_of(scene).model_in_words} answers at all times."
+    target = scene.numerics.model_tolerance
+    wide = in_motion(result.columns) & (result.uncertainty.model > target)
+    if not wide.any():
+        return answers
+    return (
+        f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
+        "(numerics.model_tolerance). For a narrower interval, solve a steady point with the values of such a moment (a scene without "
+        "[transient]); this helps where the deterministic model applies and heat causes less than half of this error."
+    )
+
+
+def largest_friction(result: TransientResult) -> int:
+    """Return the index of the output in motion with the largest friction coefficient, without its sign."""
+    return int(np.nanargmax(np.where(in_motion(result.columns), np.abs(result.coefficient), -1.0)))

@@ -1,0 +1,75 @@
+"""The inputs of a scene in a report: the value used, how it was given, and what follows from it."""
+
+import math
+from collections.abc import Container
+from html import escape
+from itertools import cycle
+from typing import Any
+
+from ..models.shared import sentence
+from ..quantities import KEYS
+from ..scene import Scene, short_keys
+from ..units import worded
+from .inputs import FACTS, inputs
+from .markup import bullets, table
+
+# A radius that is infinite: the one input that may be.
+PLANE = "a plane"
+# How an input was given that a fit found.
+BY_FIT = "fitted"
+# Key of an oil by its name, from which other inputs follow.
+NAMED_OIL = "oil"
+# Key of the bodies by their material, from which other inputs follow.
+NAMED_MATERIAL = "material"
+MOST_GIVEN = 60  # characters of a value in the column of how an input was given; a choice, by looking at the report
+
+
+def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:
+    """Return the inputs of a section: each value used, how it was given, and what follows from them; ``fitted``: the keys that
+    a fit found."""
+    shown = dict(given)
+    rows = []
+    for label, text, key, note in inputs(scene, section):
+        name = key.partition(".")[2]
+        source = "derived" if _is_derived(scene, section, name, given) else "default"
+        if name in shown:
+            source = _given(name, shown.pop(name))
+        source = BY_FIT if key in fitted else source
+        cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
+        rows.append(cells)
+    for name, value in shown.items():
+        label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
+        if f"{section}.{name}" in fitted:
+            continue
+        used = _used_in_words(f"{section}.{name}", value)
+        rows.append(
+            f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
+        )
+    facts = bullets([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
+    heads = ["quantity", "value used", "given as"]
+    return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
+
+
+def _used_in_words(key: str, value: Any) -> str:
+    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; "" of a table."""
+    if isinstance(value, dict):
+        return ""
+    values = value if isinstance(value, list) else [value]
+    units = (KEYS[key].unit if key in KEYS else "-").split(", ")
+    numbers_with_units = zip(values, cycle(units))
+    return ", ".join(PLANE if number == math.inf else worded(number, unit) for number, unit in numbers_with_units)
+
+
+def _is_derived(scene: Scene, section: str, name: str, given: dict[str, Any]) -> bool:
+    """Return whether a value that is not among the ``given`` keys of a section follows from one of these, and is not the default
+    of its key; a material or an oil with a name has values that may be alike."""
+    if not any(key in given for key in (*short_keys(section), NAMED_OIL)):
+        return False
+    used = getattr(scene, section)
+    is_default = getattr(used, name) == getattr(type(used), name, None)
+    return not is_default or any(key in given for key in (NAMED_MATERIAL, NAMED_OIL))
+
+
+def _given(name: str, value: Any) -> str:
+    text = f"{name} = {value!r}"
+    return text if len(text) <= MOST_GIVEN else f"{text[: MOST_GIVEN - 4]} ..."

@@ -1,0 +1,88 @@
+"""What a report says of its methods: the contact and the oil in a line, a paragraph to quote, what was solved, and by which versions."""
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any
+
+from ..models.shared import Prepared, sentence
+from ..scene import Scene
+from ..studies import CurveResult
+from ..time import TransientResult
+from ..units import worded
+from .describe import TABLE_CAPTION, SceneEstimate
+from .inputs import over_the_run
+from .markup import bullets, number_cells, table
+from .operating_point import nearest_solved
+
+
+def scene_in_words(scene: Scene) -> str:
+    """Return the contact and the oil of a scene in a line."""
+    bodies = scene.bodies
+    oil = scene.lubricant
+    warm = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
+    radius = over_the_run(scene, "radius", bodies.radius, "m")
+    load = over_the_run(scene, "load", bodies.load, "N")
+    viscosity = over_the_run(scene, "viscosity", oil.viscosity, "Pa s")
+    return (
+        f"Line contact of reduced radius {radius} and length {worded(bodies.width, 'm')} under {load}, in an oil of "
+        f"{viscosity}{warm}"
+    )
+
+
+def methods_to_quote(facts: Sequence[str], result: Any) -> str:
+    """Return a paragraph about the ``facts`` of a scene and the methods of its ``result`` (`cite`), which a reader may quote."""
+    text = " ".join([*map(sentence, facts), result.cite("methods")]).strip()
+    return f'<p class="small">Methods, to quote:</p><blockquote>{escape(text)}</blockquote>' if text else ""
+
+
+def method_lists(prepared: Prepared, result: CurveResult | TransientResult, estimate: SceneEstimate) -> str:
+    """Return what was solved and on which surface; and, folded, what was estimated before."""
+    planned = [text for name in ("contact", "model") for text in estimate.sections[name]]
+    lines = estimate.sections["transient"]
+    nearest = nearest_solved(prepared.scene, result) if isinstance(result, CurveResult) else None
+    if nearest is not None:
+        (point, place, _) = nearest
+        lines = [f"{place}: {part}" for part in point.decision.parts]
+    elif isinstance(result, TransientResult):
+        lines = [*lines, *planned]
+        planned = []
+    surface = dict.fromkeys([*estimate.sections["surface"], *prepared.surface.notes])
+    heads = estimate.table[0]
+    rows = [number_cells(row) for row in estimate.table[1:]]
+    return (
+        bullets([sentence(line) for line in lines])
+        + bullets([sentence(line) for line in surface])
+        + "<details><summary>Estimate before the solve</summary>"
+        + bullets([sentence(line) for line in planned])
+        + f"<p>{escape(sentence(TABLE_CAPTION))}</p>"
+        + table(heads, rows)
+        + "</details>"
+    )
+
+
+def made_table(record: dict[str, Any]) -> str:
+    """Return versions, the hash of the scene, and the time of the run."""
+    rows = [
+        *record["versions"].items(),
+        *((f"SHA-256 of the height map {path}", checksum) for path, checksum in record["map_sha256"].items()),
+        ("scene", record["hash"]),
+        *(
+            []
+            if record["seed"] is None
+            else [("seed of the scene (surface.seed), from which those of the strips follow", record["seed"])]
+        ),
+        ("wall-clock time of the run", f"{record['seconds']:.3g} s"),
+        ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
+        ("solver", record["report"]["solver"]),
+    ]
+    note = (
+        f"<p>resolved.toml contains the scene with all defaults. In its folder, <code>{escape(record['command'])}</code> "
+        "computes the same numbers with the versions and height maps below.</p>"
+    )
+    return note + facts_table(rows)
+
+
+def facts_table(rows: Iterable[tuple[str, Any]]) -> str:
+    """Return the table of facts on how a result was computed; ``rows``: pairs of a name and a value."""
+    cells = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
+    return table(("", ""), cells)

@@ -1,0 +1,152 @@
+"""The status of a report: whether all points are solved, and which tolerances they miss."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, percent, sentence
+from ..quantities import counted
+from ..scene import Scene
+from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_study
+from ..time import TransientResult
+from .missed_tolerances import MissedTolerance, missed_tolerances
+from .operating_point import place_on_curve
+from .study_points import scene_of_each
+
+# Assumptions on errors of f, whose violation the status of a run names.
+ERRORS_OF_F = (Assumption.NUMERICAL_ERROR, Assumption.MODEL_FORM_ERROR)
+
+
+def status_kind(*, failed: bool, inexact: int) -> str:
+    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and whether (not 0) f is ``inexact``:
+    an order of magnitude, or beyond a tolerance."""
+    if failed:
+        return "failed"
+    return "inexact" if inexact else ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StatusOfPoints:
+    """How sure f is at the points of a curve or of a study.
+
+    Attributes
+    ----------
+    columns : their numbers by name, (n,), those of the error of f among them
+    scenes : the scene of each, (n,)
+    violations : the assumptions that do not hold at each, (n,) or more
+    """
+
+    columns: Mapping[str, np.ndarray]
+    scenes: Sequence[Scene]
+    violations: Sequence[tuple[Violation, ...]]
+
+    @property
+    def exceeded(self) -> list[MissedTolerance]:
+        """The tolerances that points miss."""
+        return list(missed_tolerances(self.columns, self.scenes))
+
+    @property
+    def largely_inexact(self) -> int:
+        """At how many points the numerical error of f is a warning."""
+        return sum(
+            any(each.assumption == Assumption.NUMERICAL_ERROR and not each.is_note for each in of_point)
+            for of_point in self.violations
+        )
+
+    def kind(self, *, failed: bool) -> str:
+        """Return the `status_kind`; ``failed``: whether points are not solved."""
+        return status_kind(failed=failed, inexact=self.largely_inexact + len(self.exceeded))
+
+    def in_words(self, plural: str, place: Callable[[int], str]) -> str:
+        """Return in sentences that all points are solved, and which tolerances they miss. ``plural``: what they are called;
+        ``place``: gives where a row lies, as "at point 3"."""
+        total = len(self.scenes)
+        head = "The point is solved." if total == 1 else f"All {total} {plural} are solved."
+        if self.largely_inexact == 0:
+            head = f"Converged: {head[0].lower()}{head[1:]}"
+        solved = np.isfinite(self.columns["coefficient"])
+        unknown = int(np.isnan(self.columns["interval_low"][solved]).sum())
+        orders = orders_of_magnitude(self.columns["numerical_error"].tolist())
+        return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place)))
+
+
+def status_of_curve(scene: Scene, curve: CurveResult) -> StatusOfPoints:
+    """Return how sure f is at the points of a ``curve`` of ``scene``."""
+    return StatusOfPoints(
+        columns=columns_of_curve(curve),
+        scenes=[scene] * len(curve.points),
+        violations=[() if point is None else point.validity for point in curve.points],
+    )
+
+
+def status_of_study(result: StudyResult) -> StatusOfPoints:
+    """Return how sure f is at the points of a study."""
+    return StatusOfPoints(
+        columns=columns_of_study(result), scenes=scene_of_each(result), violations=[*result.violations.flat]
+    )
+
+
+def curve_in_words(scene: Scene, curve: CurveResult) -> str:
+    """Return in sentences whether all points of ``curve`` of ``scene`` were solved, and which of its tolerances they miss; the
+    first failure with its message."""
+    plural = curve.SWEPT[3]
+    if not curve.errors:
+        return status_of_curve(scene, curve).in_words(plural, lambda index: place_on_curve(curve, index))
+    total = len(curve.points)
+    solved = total - len(curve.errors)
+    first = min(curve.errors)
+    return (
+        f"Not complete: {solved} of {counted(total, plural)} solved. First failure {place_on_curve(curve, first)}: "
+        f"{curve.errors[first]}"
+    )
+
+
+def study_in_words(result: StudyResult) -> str:
+    """Return in sentences how many points of a study are solved, and which tolerances they miss, or the most frequent failures."""
+    if not result.failed:
+        return status_of_study(result).in_words("points", lambda row: f"at point {row + 1}")
+    failed = Counter(result.failures)
+    reasons = "; ".join(f"{count} x {reason.removesuffix('.')}" for reason, count in failed.most_common(3))
+    total = counted(result.solved, "points")
+    return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}."
+
+
+def orders_of_magnitude(errors: Iterable[float]) -> list[str]:
+    """Return at how many solved points, with these relative numerical ``errors`` of f, f is known to an order of magnitude only,
+    in a sentence; none where there are none."""
+    are_large = [error > ERROR_OF_ORDER_OF_MAGNITUDE for error in errors]
+    if not any(are_large):
+        return []
+    where = "The" if len(are_large) == 1 else f"At {sum(are_large)} of {len(are_large)} points the"
+    return [
+        f"{where} numerical error of f is above {percent(ERROR_OF_ORDER_OF_MAGNITUDE)}, so f is only an order of magnitude (see the "
+        "warnings)."
+    ]
+
+
+def shortfalls(exceeded: Sequence[MissedTolerance], unknown: int, total: int, place: Callable[[int], str]) -> list[str]:
+    """Return which tolerances of ``total`` solved points are ``exceeded`` and where (``place`` of a row), and how many points have an
+    ``unknown`` interval, in sentences."""
+    sentences = [each.in_words(total, place) for each in exceeded]
+    if exceeded and not unknown:
+        sentences.append(f"The interval of f includes {'this error' if len(exceeded) == 1 else 'these errors'}.")
+    if unknown > 0:
+        head = f"At {unknown} of {total} points the" if total > 1 else "The"
+        sentences.append(f"{head} interval of f is not known.")
+    return sentences
+
+
+def missed_by_run(result: TransientResult) -> list[str]:
+    """Return the errors of f that are above their tolerances at outputs of a run, in a sentence each."""
+    sentences = []
+    for each in result.gathered:
+        violation = each.violation
+        if violation is None or violation.is_note or violation.assumption not in ERRORS_OF_F:
+            continue
+        worst = f"{float(f'{violation.value:.2g}'):g} {violation.unit}"
+        sentences.append(
+            f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} {violation.unit}, up to {worst}."
+        )
+    return sentences

@@ -1,0 +1,183 @@
+"""The answer of a study, in sentences."""
+
+import numpy as np
+
+from ..models.shared import alpha_of_points_in_words, percent
+from ..quantities import COLUMNS
+from ..scene import SLIDE_ROLL_RATIO_KEY
+from ..studies import (
+    DURATION,
+    INTERVAL_COLUMNS,
+    ORDERED_BY,
+    POSITION,
+    StudyPlan,
+    StudyResult,
+    columns_of_study,
+    label,
+    main_effects,
+    mean_over_cycle,
+    name_of,
+    place_in_words,
+)
+from ..units import converted, printed, unit_of_largest, with_interval
+from .best_designs import best_lines
+from .study_points import effects_at, error_in_words, parts_of_error
+
+# Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms each.
+MOST_CHECKED_EFFECTS = 500
+# What f is at a point where nothing slides, and why the power loss there is not f times a speed.
+IN_PURE_ROLLING = (
+    "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling resistance of "
+    "both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, cancels"
+)
+# What the mean power loss of a path of contact is.
+OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
+# Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
+# of a text.
+MOST_MEANS = 6
+# Share of the variance below which the end of its interval is written as 0. A convention.
+LEAST_STATED_SHARE = 1e-3
+
+
+def answer_lines(result: StudyResult) -> list[str]:
+    """Return the answer of a study in sentences: what the inputs do to f, the best design at the operating conditions, of operating
+    points the means over the cycle, and the smallest and the largest f and power loss with intervals and places."""
+    rows = [*_main_effects_line(result), *best_lines(result)]
+    if result.paired:
+        rows += _mean_lines(result)
+    for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
+        values = result.columns.get(name)
+        if values is None or not np.isfinite(values).any():
+            continue
+        what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
+        for word, find in {"smallest": np.nanargmin, "largest": np.nanargmax}.items():
+            index = tuple(map(int, np.unravel_index(int(find(np.abs(values))), values.shape)))
+            low, high = (float(result[end][index]) for end in (low_name, high_name))
+            shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
+            unknown = "" if np.isfinite(low) else " (interval not known)"
+            why = ""
+            if name == "coefficient" and not _slides(result, index):
+                why = f". {IN_PURE_ROLLING}"
+            rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
+    by_alpha = _alpha_line(result)
+    return [*rows, *by_alpha, *_budget_line(result)]
+
+
+def _main_effects_line(result: StudyResult) -> list[str]:
+    """Return what the inputs that are varied do to f, each by itself, in a sentence; none where that is not known."""
+    effects = main_effects(result)
+    if not effects:
+        return []
+    trends = {-1: ["on average f falls with it"], 0: [], 1: ["on average f rises with it"]}
+    words = []
+    for key, effect in effects.items():
+        low, high = (f"{100 * end:.2g}" if end >= LEAST_STATED_SHARE else "0" for end in effect.interval)
+        known = [f"{low} to {high} %"] if np.isfinite(effect.interval).all() and low != high else []
+        details = ", ".join([*known, *trends[effect.slope]])
+        words.append(f"{name_of(key)} {percent(effect.share)}" + (f" ({details})" if details else ""))
+    within = (
+        ", with its range within the errors of f at 95 %" if np.isfinite([*effects.values()][0].interval).all() else ""
+    )
+    return [
+        f"Part of the variance of ln f that each input alone explains{within}: {'; '.join(words)}. The remaining part comes "
+        "from combinations of inputs."
+    ]
+
+
+def _mean_lines(result: StudyResult) -> list[str]:
+    """Return the mean power loss and f over the operating points in a sentence, for each combination of what else is
+    varied (at most `MOST_MEANS`)."""
+    of_tooth_pair = f" {OF_TOOTH_PAIR}" if POSITION in result.coords else ""
+    weighed = "weighted by the duration" if "duration" in result.coords else "all with the same weight"
+    rows = []
+    for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
+        where = f" for {place}" if (place := label(result.plan, (*index, slice(None)))) else ""
+        low, high = (float(np.asarray(end)[index]) for end in result.mean_interval("power_loss"))
+        mean = float(np.asarray(result.mean("power_loss"))[index])
+        text = _mean_in_words(mean, low, high, "W")
+        rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.{of_tooth_pair}")
+        rows.append(_mean_friction(result, index, where))
+    others = int(np.prod(result.status.shape[:-1], dtype=int)) - MOST_MEANS
+    if others > 0:
+        rows.append(
+            f'The means of {others} other combinations are not listed; in Python, study.mean("power_loss") has all.'
+        )
+    return rows
+
+
+def _mean_in_words(mean: float, low: float, high: float, unit: str) -> str:
+    """Return a mean in the SI ``unit`` with its interval, or why it is not known."""
+    if not np.isfinite(mean):
+        return "not known, as points failed"
+    return with_interval(mean, low, high, unit=unit) + ("" if np.isfinite(low) else " (interval not known)")
+
+
+def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> str:
+    """Return the mean magnitude of f over the operating points in a sentence. Where f changes its sign, as at the pitch
+    point of a gear, a mean with the sign would say nothing."""
+    f = result["coefficient"][index]
+    ends = np.abs([result[name][index] for name in INTERVAL_COLUMNS["coefficient"]])
+    crosses = result["interval_low"][index] * result["interval_high"][index] < 0
+    low = np.where(crosses, 0.0, ends.min(axis=0))
+    durations = np.array(result.plan.coordinates.get(DURATION, np.ones(f.shape[-1])))
+    mean, least, most = (mean_over_cycle(values, durations) for values in (np.abs(f), low, ends.max(axis=0)))
+    what = "mean friction coefficient" if not (f < 0).any() else "mean magnitude of the friction coefficient"
+    text = _mean_in_words(mean, least, most, "-")
+    return f"The {what} is {text}{where}."
+
+
+def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
+    """Return whether the surfaces slide at a point."""
+    if SLIDE_ROLL_RATIO_KEY not in result.coords:
+        return result.plan.scene.motion.slide_roll_ratio != 0
+    dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
+    return bool(ratios[index[result.dims.index(dim)]] != 0)
+
+
+def _alpha_line(result: StudyResult) -> list[str]:
+    """Return at which points the range of an estimated pressure-viscosity coefficient is not in the interval of f, and by how much
+    it changes f, in a sentence; none where there are no such points."""
+    known = np.flatnonzero(np.isfinite(columns_of_study(result)["coefficient"]))
+    rows = known[:: max(1, -(-known.size // MOST_CHECKED_EFFECTS))]
+    effects = {row + 1: each for row, each in zip(rows.tolist(), effects_at(result, rows.tolist()))}
+    text = alpha_of_points_in_words(effects, len(effects))
+    some = f" Checked at {rows.size} of {known.size} points." if text and rows.size < known.size else ""
+    return [f"{text}{some}"] if text else []
+
+
+def _budget_line(result: StudyResult) -> list[str]:
+    """Return the relative errors of f at its largest value in a sentence; none where f or its interval is not known."""
+    f = np.abs(result["coefficient"])
+    f = np.where(np.isfinite(result["interval_low"]), f, np.nan)
+    if not np.isfinite(f).any():
+        return []
+    index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
+    curves = result.plan.scenes
+    scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]
+    parts = parts_of_error(result.columns, index, [scene])
+    size = float(result["coefficient"][index])
+    words = ", ".join(f"{name} {error_in_words(part, 0, size)}" for name, part in parts.items())
+    place = point_in_words(result, index).partition(":")[0]
+    some = "" if np.isfinite(result["interval_low"]).all() else " with an interval"
+    return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]
+
+
+def point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
+    """Return where a point lies, as text; an operating point by its number in the tables and its coordinate alone."""
+    return result.place(index) if result.chosen else planned_point_in_words(result.plan, index)
+
+
+def planned_point_in_words(plan: StudyPlan, index: tuple[int, ...]) -> str:
+    """Return where a point of a ``plan`` lies that does not choose its speeds, as `point_in_words`."""
+    number = int(np.ravel_multi_index(index, plan.shape)) + 1
+    if not plan.paired:
+        return f"point {number}: {place_in_words(plan, index, plan.point_speed(index))}"
+    known = (name for name in ORDERED_BY if name in plan.coords)
+    place = "".join(f" ({name} {_coordinate(name, plan.coords[name][1], index[-1])})" for name in known)
+    return f"point {number}{place}"
+
+
+def _coordinate(name: str, values: np.ndarray, index: int) -> str:
+    """Return one of the ``values`` of a coordinate in the unit that all have in common."""
+    unit = unit_of_largest(values.tolist(), COLUMNS[name].unit)
+    return f"{converted(float(values[index]), COLUMNS[name].unit, unit):.4g} {printed(unit)}"

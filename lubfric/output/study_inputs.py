@@ -1,0 +1,75 @@
+"""The inputs of a study: those that are varied, and those that all points share."""
+
+from dataclasses import replace
+from html import escape
+
+import numpy as np
+
+from ..quantities import CHOICES, COLUMNS, worded_value
+from ..scene import Scene
+from ..studies import StudyPlan, StudyResult, name_of, scenes_of
+from ..units import converted, printed, unit_of_largest
+from .inputs import INPUT_SECTIONS, inputs
+from .markup import table
+
+
+def range_in_a_line(key: str, values: np.ndarray) -> str:
+    """Return the values of a key in a line: all if they are few, else their range."""
+    label = name_of(key)
+    if values.dtype.kind == "f" and values.size > 6:
+        ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))
+        return f"{label}: {ends}" if " to " not in ends else f"{label}: {values.size} values, {ends}"
+    if values.dtype.kind == "f" and key in COLUMNS and COLUMNS[key].unit not in ("-", "K"):
+        unit = unit_of_largest(values.tolist(), COLUMNS[key].unit)
+        numbers = dict.fromkeys(f"{converted(value, COLUMNS[key].unit, unit):.4g}" for value in values.tolist())
+        return f"{label}: {', '.join(numbers)} {printed(unit)}"
+    shown = dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values[:6])
+    return f"{label}: {', '.join(shown)}{', ...' if values.size > 6 else ''}"
+
+
+def common_inputs(result: StudyResult | StudyPlan) -> str:
+    """Return the tables of the inputs that are the same at all points of a study or its plan: all but those that are
+    varied."""
+    varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
+    whole_sections = {key for key in varied if "." not in key}
+    parts = []
+    scene, *others = _scenes_at_ends(result if isinstance(result, StudyPlan) else result.plan)
+    for section in INPUT_SECTIONS:
+        everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
+        rows = [
+            f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
+            for label_, text, key, note in inputs(scene, section)
+            if key not in varied and section not in whole_sections
+            if all((key, text, note) in alike for alike in everywhere)
+        ]
+        if section not in whole_sections:
+            rows += [
+                f'<td>{escape(key.partition(".")[2].replace("_", " "))}</td><td>{escape(value)}</td><td class="key">{key}</td>'
+                for key in CHOICES
+                if key.startswith(f"{section}.") and key not in varied
+                if len({getattr(getattr(each, section), key.partition(".")[2], None) for each in (scene, *others)}) == 1
+                if isinstance(value := getattr(getattr(scene, section), key.partition(".")[2], None), str)
+            ]
+        if section == "lubricant" and scene.lubricant.oil is not None and section not in whole_sections:
+            names = {"" if each.lubricant.oil is None else each.lubricant.oil.name for each in (scene, *others)}
+            rows += [f"<td>oil</td><td>{escape(name)}</td><td></td>" for name in names if len(names) == 1]
+        parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
+    return "".join(parts)
+
+
+def _scenes_at_ends(plan: StudyPlan) -> list[Scene]:
+    """Return the scene of the first point of a ``plan``, and those at the ends of the range of each number that is varied:
+    what follows from it, as the viscosity from a temperature, differs there."""
+    first = {axis.name: axis.values[0] for axis in plan.axes}
+    corners = [first]
+    for axis in plan.axes:
+        for column in zip(*axis.values):
+            is_number = all(isinstance(value, (int, float)) for value in column)
+            ends = (min, max) if is_number else ()
+            corners += [first | {axis.name: axis.values[column.index(end(column))]} for end in ends]
+        corners.append(first | {axis.name: axis.values[-1]})
+    scenes = []
+    for corner in corners:
+        axes = tuple(replace(axis, values=(corner[axis.name],)) for axis in plan.axes)
+        scenes += list(scenes_of(plan.scene, axes))
+    return scenes

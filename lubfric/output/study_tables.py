@@ -1,0 +1,238 @@
+"""The tables of the points of a study."""
+
+from collections.abc import Sequence
+from html import escape
+
+import numpy as np
+
+from ..models.shared import GatheredTexts, numbers_in_words, peak_hertz_pressure, percent
+from ..quantities import COLUMNS
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget
+from ..studies import INTERVAL_COLUMNS, StudyResult, columns_of_study, name_of
+from ..units import (
+    ZERO_CELSIUS,
+    beside_interval,
+    converted,
+    interval_in_words,
+    plain_number,
+    printed,
+    unit_of_largest,
+    with_interval,
+    worded,
+)
+from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, number_cells, table
+from .study_points import error_in_words, parts_of_error, scene_of_each
+
+# Rows of the table of a report, about; study.csv has all.
+MOST_ROWS = 60
+# Numbers whose smallest and largest value the answer of a study has.
+ANSWERED = ("coefficient", "power_loss")
+# Numbers of the table of a report, each in a unit of people, with the ends of their interval where they have one.
+REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
+    **INTERVAL_COLUMNS,
+    "full_load_film": None,
+    "lambda_ratio": None,
+    "central_film": None,
+    "min_film": None,
+    ASPERITY_LOAD_RATIO: None,
+}
+# Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their interval.
+UNBROKEN = ' style="white-space: nowrap"'
+TWO_LINES = ' style="min-width: 9em"'
+# Digits of what is varied, which is exact. A choice: less makes neighbours alike.
+CELL_DIGITS = 4
+# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
+# shows digits that are not known.
+DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
+# Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
+RISE_DIGITS = 2
+RISE_NOTE = (
+    "The temperature rises have no stated error. The deterministic and the quick model compute them for one strip at one moment. The "
+    "rise of the film varies up to threefold between strips and moments, so steps from point to point are partly scatter. f includes "
+    "the effect of heat, and the interval of f its error."
+)
+# Columns of a table of operating points from which others follow, and these.
+DERIVED_COLUMNS = {
+    ("u1", "u2"): (SLIDE_ROLL_RATIO_KEY, "speed"),
+    ("sliding_speed",): (SLIDE_ROLL_RATIO_KEY,),
+    ("R1", "R2"): ("bodies.radius",),
+}
+
+
+def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) -> str:
+    """Return the points of a study with what is varied, the numbers `REPORTED_NUMBERS`, each column in one unit, and the numbers
+    of their ``warnings`` in the report."""
+    columns = columns_of_study(result)
+    columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
+    count = len(next(iter(columns.values())))
+    picked = _picked(columns, rows)
+    heads = ["no."]
+    cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
+    omitted = {*_constant(result, count), *_derived(result)}
+    for name in (name for name in result.coords if name not in omitted):
+        (head, column) = _column(result, columns, name, picked)
+        heads.append(head)
+        cells.append(column)
+    inputs_alone = len(heads)
+    for name in REPORTED_NUMBERS:
+        (head, column) = _column(result, columns, name, picked)
+        if name != "coefficient":
+            heads.append(head)
+            cells.append(column)
+            continue
+        heads += [head, INTERVAL_OF_F]
+        cells += _friction_and_interval(columns, picked)
+    if any(each.numbers for each in warnings):
+        heads.append("warnings")
+        cells.append([_numbers_of_warnings(warnings, row + 1) for row in picked])
+    why = f'<td colspan="{len(heads) - inputs_alone}" class="warning">'
+    failures = set(result.failures)
+    body = []
+    for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
+        numbers = row[:inputs_alone] if status in failures else row
+        texts = "".join(_number_cell(head, text) for head, text in zip(heads, numbers))
+        body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
+    return table(heads, body)
+
+
+def _number_cell(head: str, text: str) -> str:
+    """Return a cell of a number in the column with this ``head``."""
+    style = TWO_LINES if "(" in text else ""
+    style = UNBROKEN if head == INTERVAL_OF_F else style
+    return f'<td class="number"{style}>{escape(text)}</td>'
+
+
+def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
+    """Return the numbers of the ``warnings`` that hold at a ``point``, as text."""
+    return ", ".join(str(number) for number, each in enumerate(warnings, 1) if point in each.numbers) or "-"
+
+
+def _friction_and_interval(columns: dict[str, np.ndarray], picked: np.ndarray) -> tuple[list[str], list[str]]:
+    """Return f at the points that are ``picked`` and its 95 % intervals, each in as many digits as the interval shows."""
+    values = columns["coefficient"][picked].tolist()
+    low, high = (columns[end][picked].tolist() for end in INTERVAL_COLUMNS["coefficient"])
+    rows = list(zip(values, low, high))
+    f = ["-" if np.isnan(row[0]) else beside_interval(*row) for row in rows]
+    return f, [interval_in_words(first, last, value=value) for value, first, last in rows]
+
+
+def _column(
+    result: StudyResult, columns: dict[str, np.ndarray], name: str, picked: np.ndarray
+) -> tuple[str, list[str]]:
+    """Return the heading of the column ``name`` with its unit, and its cells at the points that are ``picked``."""
+    values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
+    quantity = COLUMNS.get(name)
+    head = name if name == ASPERITY_LOAD_RATIO else name_of(name)
+    if values.dtype.kind != "f":
+        return head, [str(value) for value in values]
+    if name == "lubricant.temperature":
+        return f"{head} [°C]", [f"{value:.4g}" for value in values - float(ZERO_CELSIUS)]
+    si = quantity.unit if quantity else "-"
+    unit = unit_of_largest(values.tolist(), si)
+    head += f" [{printed(unit)}]" if printed(unit) else ""
+    pair = REPORTED_NUMBERS.get(name)
+    low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
+    digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
+    return head, [_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)]
+
+
+def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int) -> str:
+    """Return a number in ``unit``, with its interval if that is known; else to so many ``digits``."""
+    if not np.isfinite(value):
+        return "-"
+    shown, *ends = (converted(float(number), si, unit) for number in (value, low, high))
+    if np.isfinite(low) and np.isfinite(high):
+        return with_interval(shown, ends[0], ends[1], "")
+    return plain_number(shown, digits=digits)
+
+
+def _constant(result: StudyResult, count: int) -> list[str]:
+    """Return what is varied by name alone: it has one value at all of ``count`` points."""
+    return [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
+
+
+def _derived(result: StudyResult) -> list[str]:
+    """Return what is varied that follows from other columns of a table of operating points, which are shown instead."""
+    return [
+        name
+        for name in result.coords
+        if any(name in derived and set(given) <= set(result.coords) for given, derived in DERIVED_COLUMNS.items())
+    ]
+
+
+def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
+    """Return which of the points in ``columns`` a table of about so many ``rows`` shows: some evenly, and those of the answer."""
+    count = len(next(iter(columns.values())))
+    evenly = np.linspace(0, count - 1, rows).round().astype(int)
+    known = [columns[name] for name in ANSWERED if np.isfinite(columns[name]).any()]
+    ends = [find(values) for values in known for find in (np.nanargmin, np.nanargmax)]
+    return np.unique([*evenly, *ends])
+
+
+def folded_details(result: StudyResult, rows: int) -> str:
+    """Return a folded table of the points with what follows from other columns, the peak Hertz pressure, temperatures, and
+    the parts of the error of f."""
+    columns = columns_of_study(result)
+    picked = _picked(columns, rows)
+    scenes = scene_of_each(result)
+    constant = _constant(result, len(scenes))
+    derived = [_column(result, columns, name, picked) for name in _derived(result) if name not in constant]
+    parts = parts_of_error(columns, picked, [scenes[row] for row in picked])
+    rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
+    body = []
+    for i, row in enumerate(picked):
+        cells = [f"{row + 1}", *(texts[i] for _, texts in derived), worded(peak_hertz_pressure(scenes[row]), "Pa")]
+        cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
+        f = float(columns["coefficient"][row])
+        cells += [error_in_words(part, i, f) for part in parts.values()]
+        body.append(number_cells(cells))
+    heads = [
+        "no.",
+        *(head for head, _ in derived),
+        "peak Hertz pressure",
+        "flash temperature rise [K]",
+        "film temperature rise [K]",
+    ]
+    heads += parts
+    about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
+    notes = [RISE_NOTE] if np.isfinite(rises[1]).any() else []
+    notes += why_no_rises(result)
+    note = f"<p>{escape(' '.join(notes))}</p>" if notes else ""
+    return f"<details><summary>{about}</summary>{note}{table(heads, body)}</details>"
+
+
+def why_no_rises(result: StudyResult) -> list[str]:
+    """Return at which solved points of a study the temperature rises are not computed, why, and how to get them, a sentence or
+    two for each reason."""
+    columns = columns_of_study(result)
+    missing = np.isfinite(columns["coefficient"]) & np.isnan(columns["flash_temperature_rise"])
+    scenes = scene_of_each(result)
+    reasons: dict[str, list[int]] = {}
+    for i in np.flatnonzero(missing).tolist():
+        reasons.setdefault(_why_no_rise(scenes[i], float(columns["speed"][i])), []).append(i + 1)
+    solved = np.flatnonzero(np.isfinite(columns["coefficient"])) + 1
+    return [
+        f"{'At all points' if len(numbers) == len(solved) > 1 else numbers_in_words(numbers, len(missing))} the temperature rises are "
+        f"not computed: {reason}."
+        for reason, numbers in reasons.items()
+    ]
+
+
+def _why_no_rise(scene: Scene, speed: float) -> str:
+    """Return why the temperature rises of a point of ``scene`` at ``speed`` [m/s] are not computed, and how to get them."""
+    if scene.numerics.heat == "off":
+        return "numerics.heat = 'off' neglects the heat; 'on' computes them"
+    if not scene.lubricant.heats:
+        return (
+            "the lubricant does not state how its viscosity falls with the temperature; give lubricant.temperature and "
+            "temperature_coefficient, or an oil (grade, nu40, oil)"
+        )
+    if speed == 0 or scene.motion.slide_roll_ratio == 0:
+        return "nothing slides there, so no heat of sliding arises"
+    if scene.numerics.heat == "auto":
+        return (
+            "numerics.heat = 'auto' computes them only where the heat of film and surfaces changes f by more than its share of "
+            f"numerics.tolerance, {percent(budget.HEAT * scene.numerics.tolerance)}; numerics.heat = 'on' computes them at all points "
+            "that slide"
+        )
+    return "the film is outside the range of the formulas of its heat"
