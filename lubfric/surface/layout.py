@@ -139,11 +139,14 @@ def refuse_profile(
     header: Header | None,
     units: tuple[str, str, str] | None,
     spacing: tuple[float, float] | None = None,
+    named: tuple[tuple[str, str, str], str] | None = None,
 ) -> None:
-    """Raise `InputError` for a profile, with the statistics that make a surface of it. ``spacing`` [m]: as the user gives it,
-    which the first column must not contradict."""
+    """Raise `InputError` for a profile, with the statistics that make a surface of it. ``units``, ``spacing`` [m]: as the user
+    gives them; ``named``: the units that the headings name, and the headings. They must not contradict each other."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     message = f"file {name} contains a profile of {values.size} points, not a map of heights"
+    _refuse_other_unit(message, header, units, named)
+    units = units if named is None else named[0]
     recommendation = (
         "measure a map; or remove the key file and generate a surface with these statistics: write sq and correlation_length into "
         "[surface], one length for a surface that is alike in all directions, or [along, across the motion]"
@@ -165,16 +168,44 @@ def refuse_profile(
             message = f"{message[: message.rindex('(')]}(Sq {worded(sq * scale, 'm')} about its mean line"
         length = _correlation_steps(z)
         if length is not None:
-            message += f", correlation length {_length_in_words(length, table, units, spacing)}"
+            message += (
+                f", correlation length {_length_in_words(length, table, units, spacing, is_named=named is not None)}"
+            )
         message += ")"
     raise InputError(message, recommendation=recommendation)
 
 
+def _refuse_other_unit(
+    message: str,
+    header: Header | None,
+    units: tuple[str, str, str] | None,
+    named: tuple[tuple[str, str, str], str] | None,
+) -> None:
+    """Raise `InputError`, with a ``message`` before it, where the unit of the heights that the user gives is not that which the
+    file names."""
+    if units is None:
+        return
+    in_file = None if named is None else (named[0][2], repr(named[1][:60]))
+    stated = None if header is None else header.stated.get("z unit")
+    if stated is not None and stated.unit is not None:
+        in_file = (stated.unit, stated.worded())
+    if in_file is not None and LENGTHS[in_file[0]] != LENGTH_UNITS[units[2]]:
+        raise InputError(
+            f"{message}; unit = {units[2]!r} is given, and the file says {in_file[0]}: {in_file[1]}",
+            recommendation="measure a map; for the statistics of this profile omit unit, or correct the heading",
+        )
+
+
 def _length_in_words(
-    length: float, table: np.ndarray, units: tuple[str, str, str] | None, spacing: tuple[float, float] | None
+    length: float,
+    table: np.ndarray,
+    units: tuple[str, str, str] | None,
+    spacing: tuple[float, float] | None,
+    *,
+    is_named: bool,
 ) -> str:
     """Return a ``length`` of so many steps of a profile as text, in m where ``units`` or ``spacing`` say it; and that both
-    contradict each other, where they do."""
+    contradict each other, where they do. ``is_named``: whether the file names the ``units``."""
     given = None if spacing is None else spacing[0]
     if min(table.shape) == 1:
         return f"{length:.3g} steps" if given is None else worded(length * given, "m")
@@ -188,9 +219,15 @@ def _length_in_words(
             if scale is None
             else f"{worded(length * step * scale, 'm')} with its first column in {units and units[0]}"
         )
-    fitting = [unit for unit, size in LENGTHS.items() if abs(step * size / given - 1) < SAME_SPACING]
+    possible = [units[0]] if is_named and units is not None else [*LENGTHS]
+    fitting = [unit for unit in possible if abs(step * LENGTHS[unit] / given - 1) < SAME_SPACING]
     if fitting:
         return f"{worded(length * given, 'm')} with its first column in {fitting[0]}, as spacing says"
+    if is_named and scale is not None:
+        return (
+            f"{worded(length * step * scale, 'm')} with its first column in {possible[0]}, of which the steps, "
+            f"{worded(step * scale, 'm')}, contradict spacing = {given:.4g} m"
+        )
     return (
         f"{worded(length * given, 'm')} by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, contradict in "
         "every unit"

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -36,6 +36,7 @@ from .zygo import PHASES_TITLE, POINTS_TITLE, read_zygo
 
 MOST_TEXT_BYTES = 2**30  # of a file of text; a choice, for memory
 DECIMALS = (".", ",")
+EITHER_WAY = frozenset((True, False))  # x may run along a line of the file, or from line to line
 UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
 WYKO = "Wyko ASCII Data File Format"
 _PROFILM = re.compile(r"(numCols)\s+(numRows)\s+(pixelSize) \((\w+)\)\s+(\S+)\s+(\S+)\s+(\S+)\s", re.I)  # Filmetrics
@@ -46,6 +47,10 @@ OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in; as in `LENGTHS`
 
 _NUMBER_IN_FIELD = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
+# the label in the corner of a table with coordinates: words up to the first number, in one cell
+_CORNER = re.compile(
+    rf"(?!{_NUMBER_IN_FIELD.pattern}[\s;,])[^;,\t]+?(?=\s*[;,\t\s]\s*{_NUMBER_IN_FIELD.pattern}(?:[\s;,]|$))", re.I
+)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
 _TWO_NUMBERS = re.compile(rf"{_NUMBER_IN_FIELD.pattern}[\s;,]{{1,9}}{_NUMBER_IN_FIELD.pattern}[\s;,]{{0,9}}", re.I)
 # in quotation marks, where a comma is the decimal mark
@@ -87,6 +92,7 @@ class NumberTable:
     titles: Lines
     comments: Lines = field(default_factory=list)
     own_spacing: tuple[float, float] | None = None
+    directions: frozenset[bool] = EITHER_WAY  # of x that the corner of coordinates leaves; True: along a line
     notes: tuple[str, ...] = ()
 
 
@@ -137,7 +143,7 @@ def read_text(
     kind = "points" if points else kind_of_table(path.name, table.numbers)
     if kind == "profile":
         named = column_units([*table.titles, *table.comments], columns=2)
-        refuse_profile(path.name, table.numbers, table.header, units if units or named is None else named[0], spacing)
+        refuse_profile(path.name, table.numbers, table.header, units, spacing, named)
     if kind == "points":
         return _points(path, table, units, spacing)
     return _matrix(path, table, units, spacing)
@@ -187,6 +193,8 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     in_header = None if stated[0] is None or stated[1] is None else (stated[0], stated[1])
     own = table.own_spacing or in_header or spacing
     directions, sizes = directions_by_sizes(header, line_count, column_count, own)
+    if border is not None and directions & table.directions:
+        directions &= table.directions
     grid = grid_of(header, line_count, column_count, directions=frozenset(directions))
     steps = table.own_spacing if table.own_spacing is not None else grid.steps
     if steps is None and border is None:
@@ -429,7 +437,7 @@ def _wyko(path: Path, text: str, units: Units, spacing: Pair) -> TextMap:
     block = _block_lines(rows[start : start + int(nx)], start)
     if len(block) < nx:
         raise InputError(f"file {path.name} has {len(block)} lines of heights", "", f"{nx:g} by its X Size")
-    heights = _numbers(path, block, None)
+    heights = _numbers(path, block, None, dict(enumerate(rows, 1)))
     if heights.shape[1] != ny:
         raise InputError(f"file {path.name} has {heights.shape[1]} values in a line", "", f"{ny:g} by its Y Size")
     pixel = _field(path, fields, "Pixel_size") * LENGTHS["mm"]
@@ -503,6 +511,7 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
     `InputError` naming the line.
     """
     comments, lines = _lines(text)
+    in_file = dict(lines)
     notes: list[str] = []
     marked = 0
     for place, (number, line) in enumerate(lines):
@@ -511,7 +520,7 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
             if count and not any(c.isalpha() for c in re.sub("nan|[eE]", "", made, flags=re.I)):
                 lines[place] = (number, made)
                 marked += count
-    titles, lines = _split_titles(path, lines)
+    titles, lines, corner = _split_titles(path, lines)
     first = lines[0][0]
     second = next((number for number, line in comments if number > first and _begins_a_block(line)), None)
     if second is not None:
@@ -520,6 +529,10 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
         notes.append(f"first of several blocks; the next begins at line {second}")
     header = read_header(path.name, sorted([*comments, *titles]))
     own_spacing = _own_spacing(path, comments)
+    directions = EITHER_WAY
+    if corner is not None:
+        directions = _read_corner(header, *corner)
+        titles = [*titles, corner]
     for number, line in titles:
         is_read = number in header.lines_read or bool(column_units([(number, line)]))
         notes.append(f"line {number} {'read' if is_read else 'skipped'} as a title: {line[:60]!r}")
@@ -540,17 +553,37 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
             notes.append(f"{counted(empty, 'empty cells')} treated as unmeasured")
     if marked:
         notes.append(f"{counted(marked, 'marks')} of missing points treated as unmeasured")
-    numbers = _numbers(path, lines, separator)
+    numbers = _numbers(path, lines, separator, in_file)
     return NumberTable(
-        numbers=numbers, header=header, titles=titles, comments=comments, own_spacing=own_spacing, notes=tuple(notes)
+        numbers=numbers,
+        header=header,
+        titles=titles,
+        comments=comments,
+        own_spacing=own_spacing,
+        directions=directions,
+        notes=tuple(notes),
     )
 
 
-def _numbers(path: Path, lines: Lines, separator: str | None) -> np.ndarray:
+def _read_corner(header: Header, number: int, label: str) -> frozenset[bool]:
+    """State the unit of the coordinates that the ``label`` in the corner above them names, 'x [um] \\ y [um]', in the
+    ``header``. Return the directions of x that it leaves (True: along a line): a backslash has the rows on its left."""
+    axes = [word for word in re.findall(r"[a-zµμ]+", label.lower()) if word in ("x", "y")]
+    units = {UNIT_WORDS.get(mark.lower(), "") for mark in re.findall(r"[\[(]\s*([^\[\]()\s]{1,12})\s*[\])]", label)}
+    if sorted(axes) != ["x", "y"]:
+        return EITHER_WAY
+    if len(units) == 1 and (unit := units.pop()):
+        statement = Statement(words=("x", "y"), numbers=(), unit=unit, line=number, text=label)
+        header.state("xy unit", statement, LENGTHS[unit], unit)
+    return frozenset((axes[0] == "y",)) if "\\" in label else EITHER_WAY
+
+
+def _numbers(path: Path, lines: Lines, separator: str | None, in_file: Mapping[int, str]) -> np.ndarray:
+    """Return the numbers of ``lines``; ``in_file``: the same lines as they are in the file, for a message."""
     try:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
-        message = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
+        message = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator, in_file) or problem}"
         raise InputError(message, recommendation="use lines of equally many numbers, 'nan' where unmeasured") from None
 
 
@@ -586,12 +619,12 @@ def _wrong(path: Path, number: int, text: str, words: str) -> InputError:
     return InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} {words}")
 
 
-def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
-    """Return (titles, data lines).
+def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines, tuple[int, str] | None]:
+    """Return (titles, data lines, line and text of a label in the corner of coordinates).
 
     Leading lines without any number, with words and one number, that state something of the table, or that begin with a
     word and have less than half as many numbers as the first line of numbers alone, are titles. Any other leading line
-    with words and numbers is an error, except a row of coordinates with a word in its first cell.
+    with words and numbers is an error, except a row of coordinates with a label in its first cell.
     """
     doubtful: list[tuple[int, str, int]] = []
     for index, (number, text) in enumerate(lines):
@@ -600,13 +633,13 @@ def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
         if numbers == len(words):
             for line, title, count in doubtful:
                 if line == lines[index - 1][0] and count == numbers - 1 >= FEWEST_COORDINATES - 1:
-                    cell = re.match(r"[^\s;,]+", title)
-                    if cell and not _NUMBER_IN_FIELD.fullmatch(cell[0]):  # the corner of a table with coordinates
-                        corner = (line, f"nan{title[cell.end() :]}")
-                        return lines[: index - 1], [corner, *lines[index:]]
+                    cell = _CORNER.match(title)
+                    if cell is not None:
+                        row = (line, f"nan{title[cell.end() :]}")
+                        return lines[: index - 1], [row, *lines[index:]], (line, cell[0].strip())
                 if 2 * count >= numbers:
                     raise _wrong(path, line, title, UNCLEAR)
-            return lines[:index], lines[index:]
+            return lines[:index], lines[index:], None
         if not any(c.isalpha() for c in text) or numbers and _NUMBER_IN_FIELD.fullmatch(words[0]):
             raise _wrong(path, number, text, UNCLEAR)
         if numbers and not _is_heading(path, number, text):
@@ -656,14 +689,15 @@ def _may_be_thousands(lines: Lines) -> bool:
     return all(_THOUSANDS.fullmatch(cell) for cell in cells)
 
 
-def _fault(lines: Lines, separator: str | None) -> str:
-    """Return the first line that is not numbers or not as long as the first, as text."""
+def _fault(lines: Lines, separator: str | None, in_file: Mapping[int, str]) -> str:
+    """Return the first line that is not numbers or not as long as the first, as text; with the words that the file has."""
     width = len(lines[0][1].split(separator))
     for number, text in lines:
         fields = [f.strip() for f in text.split(separator)]
         bad = [f for f in fields if _NUMBER_IN_FIELD.fullmatch(f) is None or "," in f]
         if bad:
-            return f"line {number} has {bad[0][:40]!r}"
+            original = in_file.get(number, text)
+            return f"line {number} has {(bad[0] if bad[0] in original else original)[:40]!r}"
         if len(fields) != width:
             return f"line {number} has {len(fields)} values, the first one {width}"
     return ""

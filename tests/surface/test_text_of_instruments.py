@@ -267,7 +267,7 @@ def test_a_profile_is_refused_with_its_statistics(tmp_path, columns):
         read_surface(tmp_path / "one.txt", spacing=1e-6)
 
 
-@pytest.mark.parametrize("corner", ["0", "", "Y\\X", "nan"])
+@pytest.mark.parametrize("corner", ["0", "", "X\\Y", "nan"])
 @pytest.mark.parametrize("unit", ["given", "stated"])
 def test_coordinates_beside_the_heights_are_taken_off(tmp_path, corner, unit):
     z = rough()
@@ -288,6 +288,36 @@ def test_coordinates_beside_the_heights_are_taken_off(tmp_path, corner, unit):
     if unit == "given":
         with pytest.raises(InputError, match="no line states their unit"):
             read_surface(path, unit="nm")
+
+
+@pytest.mark.parametrize(
+    "mark, corner",
+    [(",", "x [um] \\ y [um]"), (";", "x (µm) / y (µm)"), ("\t", "x[mm]\\y[mm]"), (",", "y [um] \\ x [um]")],
+)
+def test_a_label_in_the_corner_of_coordinates_names_their_unit(tmp_path, mark, corner):
+    """The word on the left of a backslash is of the rows; the same map, turned, where that is y."""
+    z = rough()
+    scale = 1e3 if "mm" in corner else 1e6
+    is_turned = corner.startswith("y")
+    (first, second) = (np.arange(24) * DX * scale, np.arange(10) * DY * scale)
+    table = z if not is_turned else z.T
+    (down, along) = (first, second) if not is_turned else (second, first)
+    head = mark.join([corner, *(f"{value:.6f}" for value in along)])
+    body = [mark.join([f"{a:.6f}", *(f"{1e9 * value:.6f}" for value in row)]) for a, row in zip(down, table)]
+    path = tmp_path / "map.csv"
+    path.write_text("\n".join(["# a map", head, *body]) + "\n", encoding="utf-8")
+    surface = read_surface(path, unit="nm", **RAW)
+    np.testing.assert_allclose(surface.heights, z, atol=1e-14, rtol=0)
+    assert surface.spacing == pytest.approx((DX, DY), rel=1e-3)
+    assert any(note.startswith("line 2 read as a title") for note in surface.notes)
+
+
+def test_an_unreadable_line_is_quoted_as_the_file_has_it(tmp_path):
+    path = tmp_path / "map.csv"
+    path.write_text("1,2,3,4\n5,---,7 g,8\n" + "1,2,3,5\n" * 6)
+    with pytest.raises(InputError, match="line 2 has") as error:
+        read_surface(path, spacing=1e-6, unit="nm")
+    assert "nan'" not in str(error.value).partition("line 2 has")[2].partition(";")[0]
 
 
 @pytest.mark.parametrize("side", ["column", "row"])

@@ -231,6 +231,25 @@ def test_a_profile_is_described_in_the_units_that_are_stated(tmp_path):
             read_surface(path, **given)
 
 
+@pytest.mark.parametrize("head", ["x [mm];z [um]\n", "# Z-unit: um\n"])
+def test_a_unit_that_contradicts_the_heights_of_a_profile_is_refused(tmp_path, head):
+    """Its statistics, which a user may type in, would be wrong by the ratio of the two units; so would a contradicted step."""
+    x = np.arange(200) * 1e-6
+    path = tmp_path / "a.txt"
+    rows = "".join(f"{1e3 * a:.6g};{1e6 * b:.6g}\n" for a, b in zip(x, 1e-7 * np.sin(x / 5e-6)))
+    path.write_text(head + rows)
+    with pytest.raises(InputError, match="unit = 'nm' is given, and the file says um") as error:
+        read_surface(path, unit="nm")
+    assert "Sq" not in str(error.value)
+    with pytest.raises(InputError, match=r"Sq [67]\d\.\d* nm"):
+        read_surface(path, unit="um")
+    if "x" in head:
+        with pytest.raises(
+            InputError, match=r"correlation length [56]\.\d* µm with its first column in mm, .* contradict"
+        ):
+            read_surface(path, spacing=1e-3)
+
+
 @pytest.mark.parametrize("scale, columns", [(1e3, 2), (1e6, 2), (1.0, 1)])  # of the first column, from m
 def test_a_stated_spacing_sets_the_correlation_length_of_a_profile(scale, columns, tmp_path):
     """Whatever the unit of its first column, which heights in another unit do not have; one that fits in no unit is named."""
