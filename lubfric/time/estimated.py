@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -109,7 +109,8 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     of the gap that the film fills.
     """
     transient = transient_of(scene)
-    by_load_sharing = scene.with_(numerics={"model": PaperModel().name})  # whatever model steady friction would be by
+    # whatever model steady friction would be by, and without the ends of input ranges, which its strips do not need
+    by_load_sharing = replace(scene.with_(numerics={"model": PaperModel().name}), ranges=())
     speeds = speeds_of_run(scene) or [0.0]
     points = [estimated_work_of_point(by_load_sharing, sample, surface, speed) for speed in speeds]
     widest = None

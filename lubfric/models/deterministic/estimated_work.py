@@ -22,7 +22,7 @@ from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_ove
 from ..work_estimate import MeasuredTime, WorkEstimate
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
-from .expected_friction import expected_friction, solved_ends_of_hardness
+from .expected_friction import expected_friction, solved_ends_of_hardness, solved_ends_of_shear
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
 from .expected_steps_in_time import StepFacts
 from .first_steps import FirstSteps
@@ -164,10 +164,6 @@ PICTURED_LENGTH = 10.0
 # Correlation lengths along y of such a picture, at least [-]. A choice, by looking at the figures.
 LEAST_PICTURED_LENGTH = 8.0
 
-# Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-], one of two: about half of
-# them at ratios of .4 to 1.9, one of thirty below, on 26 contacts of verification.campaigns.moving_coverage with typical ranges.
-SOLVED_ENDS_SLIDING = 0.3
-
 # What is not solved takes nothing. By definition.
 NO_WORK = WorkEstimate(strips=0, seconds=0.0, has_answer=False)
 
@@ -200,7 +196,7 @@ def estimated_work(
     count = min(max(1, math.ceil(wanted)), sample.available_strips)
     if wanted > ENOUGH_ALONE:
         count = min(max(count, int(STRIPS_GROWTH[0])), sample.available_strips)
-    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
+    ends = _solved_ends(scene, surface, speed)
     is_smooth = is_smooth_over_cells(surface.heights)
     work = _work_at_rest(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth)
     if numerics.max_work is not None:
@@ -253,7 +249,7 @@ def _needed_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> 
 
 
 def _work_at_rest(
-    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: int, is_smooth: bool
+    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: float, is_smooth: bool
 ) -> float:
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
     of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
@@ -270,7 +266,7 @@ def _work_at_rest(
             scene, sample, steps, cells=cells, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth
         )
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
-    again = steps.work(cells, steps.again) * (OF_SLOPE + _with_middle(ends))
+    again = steps.work(cells, steps.again) * (OF_SLOPE + ends)
     left = fx * ux, fy * uy
     pieces = 0.0
     if max(left) >= 2:
@@ -291,7 +287,7 @@ def _work_at_rest(
 
 
 def _work_in_levels(
-    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: int, is_smooth: bool
+    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: float, is_smooth: bool
 ) -> float:
     """Return the counted work [s] of a patch at rest, or of ``count`` strips no longer than `LENGTH_OF_LAST_PIECE`, on shorter and
     shorter cells, and of so many ``ends`` of input ranges: the geometric mean over where the shorter cells may end.
@@ -375,12 +371,6 @@ def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, c
     return LAST_LEVEL_OF_MORE_STRIPS if count > 1 else LAST_LEVEL_OF_ONE_STRIP
 
 
-def _with_middle(ends: int) -> int:
-    """Return the number of solves for so many ``ends`` of input ranges: these, and the point at the prepared inputs, which
-    they are compared with."""
-    return ends + 1 if ends else 0
-
-
 def _work_of_short_strip(
     scene: Scene,
     sample: Sample,
@@ -390,14 +380,14 @@ def _work_of_short_strip(
     sq: float,
     speed: float,
     count: int,
-    ends: int,
+    ends: float,
     is_smooth: bool,
 ) -> float:
     """Return the same as `_work_at_rest` of strips that are shorter than `LENGTH_OF_SHORT_STRIP`: all of one is solved on
     shorter ``cells``."""
     (fx, fy) = sample_coarsening_of(scene, sample)
     (ux, uy) = sample.cells.coarsening
-    again = work_of_steps(cells, AGAIN) * (1 + _with_middle(ends))
+    again = work_of_steps(cells, AGAIN) * (1 + ends)
     is_coarse = fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if is_coarse else 0.0
     finer = work_of_steps(cells * fx * fy, _finer_steps(scene, sq, speed))
@@ -532,13 +522,13 @@ def work_on_long_cells(
     (dx, dy) = sample.cells.spacing
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
-    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
+    ends = _solved_ends(scene, surface, speed)
     is_patch = sample.refines_in_place
     steps = (
         expected_steps_of_patch(scene, sq, speed, length / (fx * dx)) if is_patch else expected_steps(scene, sq, speed)
     )
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
-    again = (OF_SLOPE + _with_middle(ends)) * steps.work(cells, steps.again)
+    again = (OF_SLOPE + ends) * steps.work(cells, steps.again)
     return AT_REST_ON_LONG_CELLS * (strips + again) + (SECONDS_OF_PATCH if is_patch else 0.0)
 
 
@@ -603,18 +593,18 @@ def _pace_in_motion(
     return IN_MOTION * (1.0 + SMALL_ARRAYS / cells)
 
 
-def _solved_ends(scene: Scene, surface: Surface, speed: float) -> int:
-    """Return how many ends of input ranges are expected to be solved where roughness moves: those of the shear of the oil where the
-    bodies slide (`SOLVED_ENDS_SLIDING`), and of the hardness where asperities reach it."""
-    slides = abs(scene.motion.slide_roll_ratio) > SOLVED_ENDS_SLIDING
-    number = 0
+def _solved_ends(scene: Scene, surface: Surface, speed: float) -> float:
+    """Return how many ends of input ranges are expected to be solved: of the hardness those that asperities reach, and where roughness
+    moves, of the shear of the oil those that change the flow. The others follow from the solved point."""
+    is_moving = has_moving_roughness(scene)
+    number = 0.0
     for name, *_ in scene.ranges:
         if name == HARDNESS_KEY:
             number += solved_ends_of_hardness(scene, surface, speed)
-        elif name in OF_SHEAR:
-            number += 1 if slides else 0
+        elif name in OF_SHEAR and is_moving:
+            number += solved_ends_of_shear(scene, surface.sq, speed, name)
         elif name != BOUNDARY_FRICTION_KEY:
-            number += 2
+            number += 2.0
     return number
 
 
