@@ -7,10 +7,10 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import FrictionResult
 from ..models import title_of
-from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, percent
+from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, is_by_sliding, percent
 from ..quantities import COLUMNS, counted, worded_value
 from ..scene import Scene
-from ..studies import CurveResult, StribeckResult, TractionResult
+from ..studies import CurveResult, StribeckResult, TractionResult, columns_of_curve
 from ..time import TransientResult
 from ..units import plain_number, with_interval
 from .budget_bars import names_of_inputs
@@ -85,11 +85,13 @@ def curve_answer(
     sentences.append(f"{rubbing}.")
     f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
-    if solved.size > 1:
-        least = place_on_curve(curve, solved[f[solved].argmin()])
-        largest = place_on_curve(curve, solved[f[solved].argmax()])
-        ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
-        sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
+    sliding = solved[is_by_sliding(columns_of_curve(curve))[solved]]
+    if sliding.size > 1:
+        least = place_on_curve(curve, sliding[f[sliding].argmin()])
+        largest = place_on_curve(curve, sliding[f[sliding].argmax()])
+        ends = f"from {plain_number(f[sliding].min())} {least} to {plain_number(f[sliding].max())} {largest}"
+        where = "" if sliding.size == solved.size else " and at which f is not that of rolling resistance"
+        sentences.append(f"Over the {counted(sliding.size, curve.SWEPT[3])} solved{where}, f goes {ends}.")
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
 
 

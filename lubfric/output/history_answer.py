@@ -5,7 +5,7 @@ import numpy as np
 from ..models.shared import sentence
 from ..quantities import counted
 from ..scene import Scene, moment_in_words
-from ..time import TransientResult, in_motion, rolls, run_model_of
+from ..time import TransientResult, counts_in_average, in_motion, rolls, run_model_of
 from ..units import plain_number, with_interval, worded
 from .films_in_words import GAP_OF_TOUCHING, is_gap_of_touching
 from .markup import number_or_dash
@@ -22,8 +22,10 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     first = float(result.time[0])
     last = float(result.time[-1])
     span = worded(last, "s") if first == 0.0 else f"the time from {worded(first, 's')} to {worded(last, 's')}"
+    are_the_same = np.array_equal(counts_in_average(result.columns), in_motion(result.columns))
+    verb = "move" if are_the_same else "slide"
     when = (
-        f"over {span}" if mean.in_motion == 1 else f"while the surfaces move ({100 * mean.in_motion:.3g} % of {span})"
+        f"over {span}" if mean.in_motion == 1 else f"while the surfaces {verb} ({100 * mean.in_motion:.3g} % of {span})"
     )
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = plain_number(float(np.nanmin(result.min_film)), "m")
@@ -126,7 +128,7 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     narrower interval."""
     answers = f"The {run_model_of(scene).model_in_words} answers at all times."
     target = scene.numerics.model_tolerance
-    wide = in_motion(result.columns) & (result.uncertainty.model > target)
+    wide = counts_in_average(result.columns) & (result.uncertainty.model > target)
     if not wide.any():
         return answers
     return (

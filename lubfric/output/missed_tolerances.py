@@ -10,6 +10,7 @@ from ..models.shared import (
     SAMPLING_ERROR,
     SAMPLING_ERROR_MISSED,
     half_width_of_error,
+    is_by_sliding,
     is_near_zero,
     percent_beside,
     sentence,
@@ -55,7 +56,7 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
     """Yield the tolerances that points miss, by the ``columns`` of their errors, (n,), and the scene of each point, (n,).
 
     The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error counts without
-    that by an unknown limiting stress, of any model. Where f is near 0, no relative error counts.
+    that by an unknown limiting stress, of any model. Where f is near 0, or that of rolling resistance, no relative error counts.
     """
     unknown = np.full(len(scenes), np.nan)
 
@@ -63,6 +64,7 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
         return np.asarray(columns.get(name, unknown), dtype=float)
 
     f = column("coefficient")
+    slides = is_by_sliding({"coefficient": f, **columns})
     numerics = [scene.numerics for scene in scenes]
     freedom = column("sampling_freedom").tolist()
     at_95 = np.array([half_width_of_error(1.0, number) for number in freedom])
@@ -79,7 +81,7 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
     for name, (error, limit) in errors.items():
         factor = SAMPLING_ERROR_MISSED if name == SAMPLING_ERROR else 1.0
         is_relative = np.array([not is_near_zero(*pair) for pair in zip(f.tolist(), error.tolist())], dtype=bool)
-        points = np.flatnonzero((error > factor * limit) & is_relative)
+        points = np.flatnonzero((error > factor * limit) & is_relative & slides)
         if not points.size:
             continue
         worst = int(points[np.argmax(error[points] / limit[points])])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..models.shared import alpha_of_points_in_words, percent
+from ..models.shared import alpha_of_points_in_words, is_by_sliding, numbers_in_words, percent
 from ..quantities import COLUMNS
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..studies import (
@@ -45,13 +45,15 @@ def answer_lines(result: StudyResult) -> list[str]:
     rows = [*_main_effects_line(result), *best_lines(result)]
     if result.paired:
         rows += _mean_lines(result)
+    slides = is_by_sliding(result.columns)
     for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
         values = result.columns.get(name)
         if values is None or not np.isfinite(values).any():
             continue
         what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
         for word, find in {"smallest": np.nanargmin, "largest": np.nanargmax}.items():
-            index = tuple(map(int, np.unravel_index(int(find(np.abs(values))), values.shape)))
+            counted_values = np.where(slides, np.abs(values), np.nan) if name == "coefficient" else np.abs(values)
+            index = tuple(map(int, np.unravel_index(int(find(counted_values)), values.shape)))
             low, high = (float(result[end][index]) for end in (low_name, high_name))
             shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
             unknown = "" if np.isfinite(low) else " (interval not known)"
@@ -59,8 +61,7 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
-    by_alpha = _alpha_line(result)
-    return [*rows, *by_alpha, *_budget_line(result)]
+    return [*rows, *_rolling_line(result), *_alpha_line(result), *_budget_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:
@@ -120,7 +121,8 @@ def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> s
     crosses = result["interval_low"][index] * result["interval_high"][index] < 0
     low = np.where(crosses, 0.0, ends.min(axis=0))
     durations = np.array(result.plan.coordinates.get(DURATION, np.ones(f.shape[-1])))
-    mean, least, most = (mean_over_cycle(values, durations) for values in (np.abs(f), low, ends.max(axis=0)))
+    weights = np.where(result.counts_in_means(index), durations, 0.0)
+    mean, least, most = (mean_over_cycle(values, weights) for values in (np.abs(f), low, ends.max(axis=0)))
     what = "mean friction coefficient" if not (f < 0).any() else "mean magnitude of the friction coefficient"
     text = _mean_in_words(mean, least, most, "-")
     return f"The {what} is {text}{where}."
@@ -143,6 +145,19 @@ def _alpha_line(result: StudyResult) -> list[str]:
     text = alpha_of_points_in_words(effects, len(effects))
     some = f" Checked at {rows.size} of {known.size} points." if text and rows.size < known.size else ""
     return [f"{text}{some}"] if text else []
+
+
+def _rolling_line(result: StudyResult) -> list[str]:
+    """Return at which points f is that of rolling resistance in a sentence; none where it is so at none, or at all."""
+    solved = np.isfinite(result["coefficient"])
+    numbers = np.flatnonzero((solved & ~is_by_sliding(result.columns)).ravel()) + 1
+    if not numbers.size:
+        return []
+    where = numbers_in_words(numbers.tolist(), int(solved.sum()))
+    return [
+        f"{where} the surfaces hardly slide, and f is that of rolling resistance: it does not count in the smallest f, in means of f "
+        "and in the best designs; the power loss counts at all points."
+    ]
 
 
 def _budget_line(result: StudyResult) -> list[str]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..models.shared import half_width_of_error
+from ..models.shared import half_width_of_error, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR
 from ..scene import inputs_not_given
 from .conditions import design_keys, operating_keys
@@ -94,7 +94,8 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
     difference. Errors count by the sides of the intervals that face each other. Numerical and sampling errors are taken as independent.
     Model-form errors of similar designs by the quick model or that of the paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken
     as independent. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two changes
-    counts. A point without a known interval cannot be distinguished from any other.
+    counts. A point without a known interval cannot be distinguished from any other. Where f is that of rolling resistance
+    (`is_by_sliding`), it is not compared.
 
     Parameters
     ----------
@@ -136,7 +137,8 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
 
 def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
     """Return the combination of the design keys with the lowest mean of a ``quantity`` over all operating conditions, weighted by
-    their duration if they have one; None where fewer than two designs have a known number at all of several conditions.
+    their duration if they have one; None where fewer than two designs have a known number at all of several conditions. Conditions at
+    which f of some design is that of rolling resistance do not count in its mean.
 
     The interval is the mean of those of the points, whose errors are taken as fully correlated. ``quantity``, comparison and errors:
     as of `best`.
@@ -144,11 +146,12 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
     (columns, points) = _compared(result, quantity)
     value = points.value
     (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
-    count = int(conditions.max(initial=-1)) + 1
+    is_compared = ~np.isin(conditions, conditions[~_counts(columns, quantity)])
+    count = np.unique(conditions[is_compared]).size
     weights = columns.get(DURATION, np.ones(value.size))
     complete = []
     for design in range(int(designs.max(initial=-1)) + 1):
-        rows = np.flatnonzero((designs == design) & np.isfinite(value))
+        rows = np.flatnonzero((designs == design) & np.isfinite(value) & is_compared)
         if rows.size == count == np.unique(conditions[rows]).size:
             complete.append(rows)
     if count < 2 or len(complete) < 2:
@@ -230,7 +233,8 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
         raise InputError("curves that choose their own speeds cannot be compared; give the same speeds to all")
     columns = columns_of_study(result)
     (f, ends_of_f) = _magnitude(columns, "coefficient")
-    (value, ends) = _magnitude(columns, quantity)
+    (magnitude, ends) = _magnitude(columns, quantity)
+    value = np.where(_counts(columns, quantity), magnitude, np.nan)
     parts = {name: columns[COLUMN_OF_ERROR[name]] for name in ("numerical", "sampling", "freedom", *SHARED_PARTS)}
     of_model = np.nan_to_num(columns[COLUMN_OF_ERROR["model"]])  # the interval does not contain one that is not known
     of_sample = [half_width_of_error(*pair) for pair in zip(parts["sampling"].tolist(), parts["freedom"].tolist())]
@@ -250,6 +254,11 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
         place=place,
         kind=kind,
     )
+
+
+def _counts(columns: dict[str, np.ndarray], quantity: str) -> np.ndarray:
+    """Return at which points a ``quantity`` is compared, (n,): f where it comes from sliding, the power loss everywhere."""
+    return is_by_sliding(columns) if quantity == "coefficient" else np.ones(columns[quantity].size, dtype=bool)
 
 
 def _magnitude(columns: dict[str, np.ndarray], quantity: str) -> tuple[np.ndarray, np.ndarray]:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..models.shared import is_by_sliding
 from .points import SPEED
 from .tables import columns_of_study
 
@@ -62,7 +63,7 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     """
     columns = columns_of_study(result)
     f = np.abs(columns["coefficient"])
-    known = np.isfinite(f) & (f > 0)
+    known = np.isfinite(f) & (f > 0) & is_by_sliding(columns)
     inputs = {SPEED, *(key for axis in result.plan.axes for key in axis.keys)}
     keys = [key for key in result.coords if key in inputs and np.unique(columns[key][known]).size > 1]
     if result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:

@@ -18,7 +18,7 @@ from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, inputs_to_quote, methods_of, shared_inputs
 from ..models import Model, models_that_may_answer, prepare
-from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell
+from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR, NUMBERS
 from ..scene import Scene
 from .best import best, best_mean
@@ -197,14 +197,23 @@ class StudyResult(Renamed, Shown):
     def mean(self, name: str) -> np.ndarray | float:
         """Return the mean of a number over the operating points, weighted by their ``duration`` (or all alike, if they
         have none): an array over the other axes. ``study.mean("power_loss")`` is the power loss of a duty cycle [W].
-        NaN where a point that counts failed."""
+        NaN where a point that counts failed. In the mean of f no point counts at which f is that of rolling resistance
+        (`is_by_sliding`)."""
         if not self.paired:
             raise InputError("mean is that over operating points; give points = a table")
         values = self[name]
         durations = self.plan.coordinates.get(DURATION)
         weights = np.ones(values.shape[-1]) if durations is None else np.array(durations)
-        means = np.apply_along_axis(mean_over_cycle, -1, values, weights)
+        is_of_f = name in ("coefficient", *INTERVAL_COLUMNS["coefficient"])
+        means = np.empty(values.shape[:-1])
+        for index in np.ndindex(means.shape):
+            counted = weights * self.counts_in_means(index) if is_of_f else weights
+            means[index] = mean_over_cycle(values[index], counted)
         return float(means) if means.ndim == 0 else means
+
+    def counts_in_means(self, index: tuple[int, ...] = ()) -> np.ndarray:
+        """Return which operating points, (n,), count in means of f (`is_by_sliding`), at the ``index`` of the other axes."""
+        return is_by_sliding({name: values[index] for name, values in self.columns.items()})
 
     def mean_interval(self, name: str) -> tuple[np.ndarray | float, np.ndarray | float]:
         """Return the ends of the 95 % interval of the `mean` of "coefficient" or "power_loss" over the operating

@@ -21,6 +21,7 @@ from .result import (
     TransientResult,
     add_angle_axis,
     band_label,
+    counts_in_average,
     errors_in_time,
     friction_over_time,
     in_motion,

@@ -17,6 +17,7 @@ from ..models.shared import (
     at_largest_ends,
     below_and_above,
     gathered_on_curve,
+    is_by_sliding,
     largest_at_load,
     percent,
     student,
@@ -61,8 +62,8 @@ MASS = 1e-3  # largest residual of a step's mass; a choice: less refuses runs, m
 
 @dataclass(frozen=True, kw_only=True)
 class TimeAverage:
-    """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f), the share
-    ``in_motion`` of that time, and relative standard deviations.
+    """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f) and f is not that of
+    rolling resistance (`lubfric.models.shared.is_by_sliding`), the share ``in_motion`` of that time, and relative standard deviations.
 
     - ``sampling``: of ``coefficient``, because one finite line of rough surface represents all of it. The line is the
       same at all times, so a longer run does not make this smaller.
@@ -196,11 +197,11 @@ class TransientResult(Renamed, Shown):
         )
 
     def average(self) -> TimeAverage:
-        """Return the average of f over the time in motion, by trapezes between the outputs (which have to be dense
-        enough to show f; between one at a standstill and one in motion f is that of the latter); its error; and its scatter
-        for fixed and for moving roughness."""
+        """Return the average of f over the time that `counts_in_average`, by trapezes between the outputs (which have to be dense
+        enough to show f; between one that counts and one that does not f is that of the former); its error; and its scatter for
+        fixed and for moving roughness."""
         half = 0.5 * np.diff(self.time)
-        moving = in_motion(self.columns)
+        moving = counts_in_average(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         of_motion = half * np.where(moving[1:] == moving[:-1], 1.0, 2.0)
         in_time = np.append(of_motion, 0.0) + np.append(0.0, of_motion) if half.size else weight
@@ -484,6 +485,14 @@ def in_motion(c: dict[str, np.ndarray], fastest: float = 0.0) -> np.ndarray:
     speed [m/s] of the run at another time."""
     speeds = np.abs([c["entrainment_speed"], c["sliding_speed"]])
     return (speeds > REST * np.max(speeds, initial=fastest)).any(axis=0)
+
+
+def counts_in_average(c: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` that count in the average of f: the surfaces move, and f
+    comes from sliding (`is_by_sliding`), unless it does so at no time."""
+    moving = in_motion(c)
+    counted = moving & is_by_sliding(c)
+    return counted if counted.any() else moving
 
 
 def rolls(c: dict[str, np.ndarray]) -> np.ndarray:

@@ -79,6 +79,18 @@ def test_the_mean_over_all_conditions_has_the_mean_of_the_intervals():
     assert mean.interval == pytest.approx((means.min() - width, means.min() + width))
 
 
+def test_a_condition_without_sliding_has_no_best_f_and_no_part_in_the_mean():
+    """Designs whose order is reversed there: f of rolling resistance, much smaller, would decide."""
+    f = np.array([[0.05, 2e-4], [0.06, 1e-4]])
+    cycle = {"speed [m/s]": [0.1, 0.2], "motion.slide_roll_ratio": [0.2, 0.0]}
+    result = made(f, 0.0 * f, vary={"surface.sq": SQ[:2]}, speeds=None, points=cycle)
+    forces = {"couette_force": [[1.0, 0.0]] * 2, "rolling_force": [[0.1, 0.1]] * 2}
+    rolls = replace(result, columns=result.columns | {name: np.array(values) for name, values in forces.items()})
+    (one,) = rolls.best()
+    assert one.value == 0.05 and one.design == {"surface.sq": SQ[0]} and len(result.best()) == 2
+    assert rolls.best_mean() is None and len(rolls.best("power_loss")) == 2
+
+
 def test_a_cycle_is_compared_by_its_mean_power_loss_weighted_by_the_durations():
     cycle = {"load [N]": [3, 5], "speed [m/s]": [0.1, 0.2], "position [m]": [0, 1], "duration [s]": [1.0, 9.0]}
     f = np.array([[0.05, 0.09], [0.09, 0.05]])  # (Sq, point): the second is better where it counts

@@ -54,10 +54,19 @@ def test_every_row_is_the_point_of_its_scene(result, points):
 
 
 def test_where_nothing_slides_the_power_is_the_resistance_of_both_surfaces(result):
-    """Point 2 rolls without slip: P = (F_1 + F_2) U, and the sentence with its f says so."""
+    """Point 2 rolls without slip: P = (F_1 + F_2) U. Its f counts in no mean and no smallest f, and a sentence says so."""
     assert result["power_loss"][1] == pytest.approx(result["rolling_resistance"][1] * 0.015, rel=1e-12)
-    (text,) = [line for line in answer_lines(result) if "Nothing slides" in line]
-    assert "at point 2" in text and "rolling resistance of both surfaces" in text
+    assert result.mean("coefficient") == pytest.approx(result["coefficient"][[0, 2]].mean(), rel=1e-12)
+    assert np.argmin(np.abs(result["coefficient"])) == 1
+    lines = answer_lines(result)
+    assert not any(
+        "Nothing slides" in line or "smallest friction coefficient" in line and "at point 2" in line for line in lines
+    )
+    assert any(line.startswith("At point 2 the surfaces hardly slide") for line in lines)
+    rolling = lubfric.study(SCENE.with_(motion={"slide_roll_ratio": 0.0}), points={"speed": [0.01, 0.1]})
+    assert rolling.mean("coefficient") == pytest.approx(rolling["coefficient"].mean(), rel=1e-12)
+    (text,) = [line for line in answer_lines(rolling) if "smallest f" in line]
+    assert "rolling resistance of both surfaces" in text
 
 
 def test_the_mean_of_a_cycle_weighs_by_the_duration(result, points):
@@ -295,7 +304,7 @@ def test_surface_speeds_of_a_table_are_in_its_result(result):
 
 
 def test_the_mean_friction_is_that_of_its_magnitude(points):
-    durations = [row[-1] for row in ROWS]
+    durations = [row[-1] * (row[2] != row[3]) for row in ROWS]  # point 2 does not slide
     magnitude = np.average([abs(point.coefficient) for point in points], weights=durations)
     columns = dict(zip(("radius", "load", "u1", "u2", "duration"), zip(*ROWS)))
     result = lubfric.study(SCENE, points=columns)

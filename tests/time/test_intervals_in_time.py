@@ -112,6 +112,16 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
     assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
 
 
+def test_moments_of_rolling_do_not_count_in_the_mean_of_f_but_in_that_of_the_power(held):
+    """At the pitch point of a gear f falls to that of rolling."""
+    rolling = {"couette_force": 0.0, "boundary_force": 0.0, "coefficient": 1e-3}
+    columns = {name: held.columns[name] * np.array([1.0, factor, 1.0]) for name, factor in rolling.items()}
+    columns["rolling_force"] = held.columns["rolling_force"] + np.array([0.0, 1e-3, 0.0])
+    run = replace(held, columns=held.columns | columns)
+    assert run.average().coefficient == pytest.approx(held.coefficient[[0, 2]].mean(), rel=0.01)
+    assert run.average().power_loss == held.average().power_loss
+
+
 def test_the_time_of_a_mean_is_that_of_the_outputs(held):
     later = replace(held, columns=held.columns | {"time": held.time + 0.06})
     for run, words in ((held, "over 3 ms is "), (later, "over the time from 60 ms to 63 ms is ")):

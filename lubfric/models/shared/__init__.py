@@ -96,6 +96,7 @@ from .prepared import (
 )
 from .rolling import rolling_model_error, smooth_rolling_resistance
 from .sides import UNKNOWN_SIDES, Sides, added_changes, added_sides, below_and_above
+from .sliding import is_by_sliding
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
