@@ -264,7 +264,7 @@ def estimate_scene(
         effects = expected_effects(scene, scene_map.sq, scene_speed, includes_motion=may_move_roughness(scene))
         place = f"at {scene_speed:.4g} m/s"
         of_alpha = expected_alpha_at(scene, scene_speed, effects)
-        rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.end_of_alpha)]
+        rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.is_of_alpha)]
         rows = [*filter(None, [of_alpha]), *rows]
     changes = [
         f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "

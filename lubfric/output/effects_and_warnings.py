@@ -5,7 +5,7 @@ from html import escape
 
 import numpy as np
 
-from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, change_in_words, sentence
+from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, sentence
 from ..studies import CurveResult
 from ..time import TransientResult, effects_of_run, rolls
 from .describe import SceneEstimate
@@ -34,7 +34,7 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(effect.what))}</td>"
-        f'<td class="number">{change_in_words(*effect.changes)}</td>'
+        f'<td class="number">{effect.change_in_words}</td>'
         f"{moment}<td>{escape(sentence(effect.recommendation))}</td>"
         for effect, moment in zip(effects, cells)
     ]

@@ -41,30 +41,54 @@ def test_a_large_change_is_reported_without_powers_of_ten():
     assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
 
-@pytest.mark.parametrize(
-    "low, high, words",
-    [
-        (0.035, 0.062, "the lowest value of measured oils changes f by +3.5 %, the highest by +6.2 %;"),
-        (-0.02, -0.062, "the lowest value of measured oils changes f by -2 %, the highest by -6.2 %;"),
-        (-0.67, 0.1, "the lowest value of measured oils changes f by -67 %, the highest by +10 %;"),
-    ],
-)
-def test_both_ends_of_an_estimated_pressure_viscosity_coefficient_are_stated(low, high, words):
-    """The words are of the effects themselves, which are sorted by size; an end below the tolerance is none of them."""
+def test_the_largest_change_by_an_estimated_pressure_viscosity_coefficient_is_stated():
+    """The words are of the effect itself, which is not found by its text; below the tolerance there is none."""
     effects = unmodelled_effects(ROLLER, SQ, 1.0)
-    changes = {"lowest": low, "highest": high}
     ends = [
-        dataclasses.replace(effect, change=changes.get(effect.end_of_alpha, effect.change), what="in other words")
+        dataclasses.replace(effect, change=0.67 if effect.is_of_alpha else effect.change, what="in other words")
         for effect in effects
     ]
-    assert words in alpha_of_points_in_words({1: ends}, 1)
-    without = [effect for effect in ends if effect.end_of_alpha != "lowest"]
-    assert (
-        f"changes f by less than numerics.tolerance, the highest by {100 * high:+.2g} %;"
-        in alpha_of_points_in_words({1: without}, 1)
-    )
-    neither = [effect for effect in without if effect.end_of_alpha != "highest"]
-    assert alpha_of_points_in_words({1: neither}, 1) == ""
+    assert "that of measured oils changes f by at most about 67 % either way;" in alpha_of_points_in_words({1: ends}, 1)
+    without = [effect for effect in ends if not effect.is_of_alpha]
+    assert len(without) == len(ends) - 1 and alpha_of_points_in_words({1: without}, 1) == ""
+
+
+# Asperity load ratio, f and its changes with the lowest and the highest pressure-viscosity coefficient of measured oils, solved by the
+# quick model: contacts at rest (slide-roll ratio 2) and rolling, Newtonian and of 5 MPa, under 50 N and 2 kN.
+SOLVED_ENDS = [
+    (0.03, 5e6, 2e3, 0.1, 0.889, 0.0987, 0.0101, -0.00157),
+    (0.03, 5e6, 2e3, 1.0, 0.235, 0.0519, 0.00435, 0.181),
+    (0.03, 5e6, 2e3, 3.0, 0.0, 0.0364, -0.527, 0.51),
+    (0.03, 5e6, 2e3, 10.0, 0.0, 0.0362, -0.664, 0.445),
+    (2.0, 5e6, 2e3, 0.3, 0.415, 0.0718, 0.0353, 0.0967),
+    (2.0, 5e6, 2e3, 3.0, 0.0, 0.0307, -0.277, 0.132),
+    (2.0, None, 2e3, 0.5, 0.962, 0.106, -0.0233, 0.00474),
+    (2.0, None, 50.0, 1.0, 0.594, 0.0737, -0.0301, 0.0119),
+    (0.2, None, 50.0, 3.0, 0.269, 0.0382, -0.0211, 0.00572),
+]
+
+
+@pytest.mark.parametrize("ratio, eyring, load, speed, asperities, f, low, high", SOLVED_ENDS)
+def test_the_bound_of_an_estimated_coefficient_holds_the_solved_changes(
+    ratio, eyring, load, speed, asperities, f, low, high
+):
+    """Where the two effects of the coefficient nearly cancel, it is up to 16 times the larger change."""
+    given = {
+        "bodies": {"radii": [6e-3, 30e-3], "width": 14e-3, "load": load, "material": "100Cr6"}
+        | {"boundary_friction_coefficient": 0.11},
+        "lubricant": {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C", "eyring_stress": eyring},
+        "motion": {"slide_roll_ratio": ratio},
+        "surface": {"ra": 0.2e-6, "correlation_length": 20e-6, "acf": "gaussian"},
+        "contact": {"shape": [128, 128], "spacing": 4e-6},
+    }
+    if ratio < 2:
+        given["counterface"] = given["surface"] | {"ra": 0.1e-6}
+    scene = paper_scene(**given)
+    sq = math.hypot(scene.surface.sq, scene.counterface.sq if scene.counterface else 0.0)
+    effects = unmodelled_effects(scene, sq, speed, (0.11 * asperities, f))
+    (bound,) = (effect.change for effect in effects if effect.is_of_alpha)
+    true = max(abs(low), abs(high))
+    assert true <= bound <= 16 * true
 
 
 def told(lacks, word):
@@ -81,10 +105,12 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
     }
     alpha = ROLLER.lubricant.oil.pressure_viscosity_coefficient(ROLLER.lubricant.temperature)
-    for word, end in {"the lowest": alpha.low, "the highest": alpha.high}.items():
-        there = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": end})
-        change = lubfric.friction(there, speed).coefficient / result.coefficient - 1
-        assert told(result.unmodelled_effects, word) == pytest.approx(change, rel=0.4), word
+    by_alpha = [
+        lubfric.friction(ROLLER.with_(lubricant={"pressure_viscosity_coefficient": end}), speed)
+        for end in (alpha.low, alpha.high)
+    ]
+    largest = max(abs(point.coefficient / result.coefficient - 1) for point in by_alpha)
+    assert 0.95 <= told(result.unmodelled_effects, "measured oils") / largest < 3
     for word, there in (
         ("starved", ROLLER.with_(lubricant=film)),
         ("warmer", ROLLER.with_(lubricant=warm)),
@@ -118,7 +144,7 @@ def test_info_shows_the_range_of_each_effect():
     effects = expected_effects(ROLLER, SQ, 1.0, includes_motion=False)  # by load sharing
     text = describe_scene(ROLLER)
     assert not any(effect.low > effect.high for effect in effects)
-    for effect in (each for each in effects if not each.end_of_alpha):
+    for effect in (each for each in effects if not each.is_of_alpha):
         changes = change_in_words(effect.low, effect.high)
         assert f"{effect.what}: f {changes}; {effect.recommendation}" in text
     assert "effects not modelled" in text and len(effects) >= 5
@@ -152,15 +178,14 @@ def test_a_given_pressure_viscosity_coefficient_is_exact():
 
 
 def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_and_what_to_do():
-    """The ends are those of both ends of measured oils together; nothing is said of a given coefficient."""
+    """Nothing is said of a given coefficient."""
     text = " ".join(describe_scene(ROLLER).split())
     speed = ROLLER.motion.entrainment_speed
-    ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.end_of_alpha]
-    sides = [min(effect.low for effect in ends), max(effect.high for effect in ends)]
+    ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.is_of_alpha]
     section = text.partition("effects not modelled")[2]
-    assert len(ends) == 2 and section.count("pressure-viscosity coefficient") == 1
-    percents = re.search(r"it may change f by ([-+\d.]+) to ([-+\d.]+) %, as long as", section).groups()
-    assert [float(end) for end in percents] == pytest.approx([100 * side for side in sides], rel=0.06)
+    assert len(ends) == 1 and section.count("pressure-viscosity coefficient") == 1
+    (percentage,) = re.search(r"it may change f by at most about ([\d.]+) % either way, as long as", section).groups()
+    assert float(percentage) == pytest.approx(100 * ends[0].high, rel=0.06)
     assert f"At {speed:.4g} m/s and a peak Hertz pressure of" in section
     assert "Give lubricant.pressure_viscosity_coefficient, from a data sheet" in section
     given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": ROLLER.lubricant.pressure_viscosity_coefficient})
