@@ -188,10 +188,14 @@ class Report:
 
     @property
     def message(self) -> str:
-        """One line: what happened, how far it got, and what to do about it."""
-        text = self.summary and f"{self.solver}: {self.summary}"
-        text = text or (
-            f"{self.solver}: {self.status} after {self.iterations} iteration{'' if self.iterations == 1 else 's'}, "
+        """One line: which solver, and its `outcome`."""
+        return f"{self.solver}: {self.outcome}"
+
+    @property
+    def outcome(self) -> str:
+        """What happened, how far it got, and what to do about it."""
+        text = self.summary or (
+            f"{self.status} after {self.iterations} iteration{'' if self.iterations == 1 else 's'}, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
         advice = self.advice or ADVICE[self.status]

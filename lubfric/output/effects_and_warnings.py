@@ -26,11 +26,13 @@ def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterabl
     return bullets(warnings, NO_WARNINGS, "warning") + folded_notes(bullets(notes), len(notes))
 
 
-def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, moments: Sequence[str] = ()) -> str:
-    """Return the table of the effects that are not modelled; ``moments``: of a run in time, when each is largest."""
+def effects_table(
+    effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, which: str = "", moments: Sequence[str] = ()
+) -> str:
+    """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place; ``moments``: of
+    a run in time, when each is largest."""
     if not effects:
-        where = place.partition(",")[0]
-        return f"<p>Each known effect changes f {escape(where)} by less than numerics.tolerance.</p>"
+        return f"<p>Each known effect changes f {escape(place)} by less than numerics.tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(effect.what))}</td>"
@@ -38,7 +40,7 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
         f"{moment}<td>{escape(sentence(effect.recommendation))}</td>"
         for effect, moment in zip(effects, cells)
     ]
-    head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
+    head = f"<p>Likely changes of f {escape(place)}{which}, estimated with closed forms.</p>"
     heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
     return head + table(heads, rows, in_sentences=True)
 
@@ -57,16 +59,19 @@ def effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
             if effect.what not in largest or change > largest[effect.what][0]:
                 largest[effect.what] = (change, effect, place_on_curve(curve, index))
     shown = sorted(largest.values(), key=lambda row: -row[0])
-    place = "at other points of the curve, each at that at which it changes f the most"
+    place = "at other points of the curve"
+    which = ", each at that at which it changes f the most"
     moments = [where.removeprefix("at ") for *_, where in shown]
-    return effects_table([effect for _, effect, _ in shown], place, moments) if shown else ""
+    return effects_table([effect for _, effect, _ in shown], place, which, moments) if shown else ""
 
 
 def history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
     """Return the table of the effects that are not modelled, each at the output at which it changes f the most."""
     effects = effects_of_run(prepared, result)
-    place = "of the run, each at the output at which it changes f the most"
+    place = "of the run"
+    which = ", each at the output at which it changes f the most"
     if result.time.size < 2 or not rolls(result.columns).any():
         effects = estimate.effects_over_time
-        place = "before the solve, each at the moment at which it changes f the most"
-    return effects_table([each.effect for each in effects], place, [each.moment_in_words for each in effects])
+        place = "before the solve"
+        which = ", each at the moment at which it changes f the most"
+    return effects_table([each.effect for each in effects], place, which, [each.moment_in_words for each in effects])

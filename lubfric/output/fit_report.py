@@ -100,7 +100,8 @@ def fit_status(result: FitResult) -> tuple[str, str]:
     if not result.report.converged:
         return "failed", "Not complete: the trust region did not end."
     if not result.describes_data:
-        return "failed", f"The fit converged, but does not describe the data: {_why_not(result)}.{by_alpha}"
+        reason = "" if result.tests is None else result.tests.reason
+        return "failed", f"The fit converged, but does not describe the data: {reason}.{by_alpha}"
     head = "Converged: the fit describes the data."
     if result.tests is not None and result.tests.doubtful:
         head = "Converged: the fit may describe the data, but the residuals may be systematic."
@@ -114,12 +115,6 @@ def fit_status(result: FitResult) -> tuple[str, str]:
     if is_inexact:
         head += f" The model-form error of f, up to {percent(float(known.max()))}, is in no interval of a parameter."
     return status_kind(failed=False, inexact=is_inexact), f"{head}{by_alpha}"
-
-
-def _why_not(result: FitResult) -> str:
-    """Return why a fit does not describe the data."""
-    text = "" if result.tests is None else result.tests.text
-    return text.removeprefix("the fit does not describe the data: ").partition(". ")[0]
 
 
 def fit_answer(result: FitResult) -> list[str]:
@@ -239,7 +234,7 @@ def _effects(result: FitResult) -> str:
         return "<p>Not known.</p>"
     place = int(np.argmax(np.abs(result.predicted)))
     where = _place(result, place)
-    return effects_table(result.points[place].unmodelled_effects, f"at {where}, of the largest f")
+    return effects_table(result.points[place].unmodelled_effects, f"at {where}", ", of the largest f")
 
 
 def _place(result: FitResult, place: int) -> str:

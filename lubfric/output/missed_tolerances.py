@@ -16,7 +16,7 @@ from ..models.shared import (
     sentence,
     standard_error_in_words,
 )
-from ..scene import Scene
+from ..scene import Numerics, Scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,43 +58,68 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
     The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error counts without
     that by an unknown limiting stress, of any model. Where f is near 0, or that of rolling resistance, no relative error counts.
     """
-    unknown = np.full(len(scenes), np.nan)
-
-    def column(name: str) -> FloatArray:
-        return np.asarray(columns.get(name, unknown), dtype=float)
-
-    f = column("coefficient")
+    f = _column(columns, "coefficient", len(scenes))
     slides = is_by_sliding({"coefficient": f, **columns})
-    numerics = [scene.numerics for scene in scenes]
-    freedom = column("sampling_freedom").tolist()
-    at_95 = np.array([half_width_of_error(1.0, number) for number in freedom])
-    of_sample = np.array([each.sampling_tolerance for each in numerics])
-    of_model = np.square(column("model_error")) - np.square(np.nan_to_num(column("limit_error")))
-    errors = {
-        "numerical error of f": (column("numerical_error"), np.array([each.tolerance for each in numerics])),
-        SAMPLING_ERROR: (at_95 * column("sampling_error"), at_95 * of_sample),
-        "model-form error of f": (
-            np.sqrt(np.maximum(of_model, 0.0)),
-            np.array([each.model_tolerance for each in numerics]),
-        ),
-    }
-    for name, (error, limit) in errors.items():
-        factor = SAMPLING_ERROR_MISSED if name == SAMPLING_ERROR else 1.0
+    for checked in _checked_errors(columns, [scene.numerics for scene in scenes]):
+        error = checked.error
         is_relative = np.array([not is_near_zero(*pair) for pair in zip(f.tolist(), error.tolist())], dtype=bool)
-        points = np.flatnonzero((error > factor * limit) & is_relative & slides)
+        points = np.flatnonzero((error > checked.factor * checked.limit) & is_relative & slides)
         if not points.size:
             continue
-        worst = int(points[np.argmax(error[points] / limit[points])])
-        keys = {
-            "numerical error of f": "numerics.tolerance",
-            SAMPLING_ERROR: standard_error_in_words(float(of_sample[worst])),
-            "model-form error of f": "numerics.model_tolerance",
-        }
+        worst = int(points[np.argmax(error[points] / checked.limit[points])])
         yield MissedTolerance(
-            error=name,
-            tolerance=keys[name],
+            error=checked.name,
+            tolerance=checked.tolerance_of(worst),
             points=tuple(points.tolist()),
             worst=worst,
             value=float(error[worst]),
-            limit=float(limit[worst]),
+            limit=float(checked.limit[worst]),
         )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _CheckedError:
+    """An error of f at some points, relative, at 95 %, and its limit, (n,) each.
+
+    ``tolerance_of`` gives what sets the limit of a row, as text; the error may be ``factor`` times its limit.
+    """
+
+    name: str
+    error: FloatArray
+    limit: FloatArray
+    tolerance_of: Callable[[int], str]
+    factor: float = 1.0
+
+
+def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numerics]) -> Iterator[_CheckedError]:
+    """Yield the numerical, the sampling and the model-form error of points with these ``numerics``."""
+    count = len(numerics)
+    yield _CheckedError(
+        name="numerical error of f",
+        error=_column(columns, "numerical_error", count),
+        limit=np.array([each.tolerance for each in numerics]),
+        tolerance_of=lambda row: "numerics.tolerance",
+    )
+    freedom = _column(columns, "sampling_freedom", count).tolist()
+    at_95 = np.array([half_width_of_error(1.0, number) for number in freedom])
+    of_sample = np.array([each.sampling_tolerance for each in numerics])
+    yield _CheckedError(
+        name=SAMPLING_ERROR,
+        error=at_95 * _column(columns, "sampling_error", count),
+        limit=at_95 * of_sample,
+        tolerance_of=lambda row: standard_error_in_words(float(of_sample[row])),
+        factor=SAMPLING_ERROR_MISSED,
+    )
+    by_limit = np.nan_to_num(_column(columns, "limit_error", count))
+    of_model = np.square(_column(columns, "model_error", count)) - np.square(by_limit)
+    yield _CheckedError(
+        name="model-form error of f",
+        error=np.sqrt(np.maximum(of_model, 0.0)),
+        limit=np.array([each.model_tolerance for each in numerics]),
+        tolerance_of=lambda row: "numerics.model_tolerance",
+    )
+
+
+def _column(columns: Mapping[str, np.ndarray], name: str, count: int) -> FloatArray:
+    """Return a column of ``count`` numbers; NaN where there is none of this ``name``."""
+    return np.asarray(columns.get(name, np.full(count, np.nan)), dtype=float)

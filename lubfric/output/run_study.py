@@ -43,7 +43,7 @@ from .fit_report import fit_page
 from .progress import ProgressLine
 from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
-from .study_answer import answer_lines, planned_point_in_words
+from .study_answer import answer_lines, numbered_point, planned_point_in_words
 from .study_pictures import STUDY_PICTURE, plot_study
 from .study_report import study_page
 from .study_warnings import tolerance_lines, warning_lines
@@ -186,9 +186,9 @@ def _point_reports(plan: studies.StudyPlan, begun: float, time_left: TimeLeft | 
         place = _place(plan, index, outcome)
         text = _in_a_line(outcome)
         if not isinstance(outcome, FrictionResult):
-            of_point = place.partition(":")[0]
+            of_point = place if plan.chooses_speeds else numbered_point(plan, index)
             earlier = first_with_reason.setdefault(text, of_point)
-            text = text if of_point == earlier else f"{text.partition(':')[0]} for the reason of {earlier}"
+            text = text if of_point == earlier else f"{_how_it_failed(outcome)} for the reason of {earlier}"
         say(f"{head} {place}: {text} ({ends})")
 
     return on_point
@@ -206,10 +206,15 @@ def _place(plan: studies.StudyPlan, index: tuple[int, ...], outcome: Any) -> str
 NEGATIVE = " (negative: the rolling resistance on surface 2 is above the friction of sliding)"
 
 
+def _how_it_failed(error: Exception) -> str:
+    """Return whether the model refused a point, or the solve failed, in a word."""
+    return "refused" if isinstance(error, ValidityError) else "failed"
+
+
 def _in_a_line(outcome: FrictionResult | Exception) -> str:
     """Return f and the power loss of a point with their intervals, or why it failed."""
     if not isinstance(outcome, FrictionResult):
-        return f"{'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
+        return f"{_how_it_failed(outcome)}: {outcome}"
     f = with_interval(outcome.coefficient, *outcome.uncertainty.interval)
     negative = NEGATIVE if outcome.coefficient < 0 and outcome.speed >= 0 else ""
     unknown = "" if math.isfinite(outcome.uncertainty.interval[0]) else " (95 % interval not known)"

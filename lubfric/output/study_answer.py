@@ -172,7 +172,7 @@ def _budget_line(result: StudyResult) -> list[str]:
     parts = parts_of_error(result.columns, index, [scene])
     size = float(result["coefficient"][index])
     words = ", ".join(f"{name} {error_in_words(part, 0, size)}" for name, part in parts.items())
-    place = point_in_words(result, index).partition(":")[0]
+    place = result.place(index) if result.chosen else numbered_point(result.plan, index)
     some = "" if np.isfinite(result["interval_low"]).all() else " with an interval"
     return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]
 
@@ -184,9 +184,15 @@ def point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
 
 def planned_point_in_words(plan: StudyPlan, index: tuple[int, ...]) -> str:
     """Return where a point of a ``plan`` lies that does not choose its speeds, as `point_in_words`."""
+    name = numbered_point(plan, index)
+    return name if plan.paired else f"{name}: {place_in_words(plan, index, plan.point_speed(index))}"
+
+
+def numbered_point(plan: StudyPlan, index: tuple[int, ...]) -> str:
+    """Return the number of a point of a ``plan`` in the tables as text, of an operating point with its coordinate."""
     number = int(np.ravel_multi_index(index, plan.shape)) + 1
     if not plan.paired:
-        return f"point {number}: {place_in_words(plan, index, plan.point_speed(index))}"
+        return f"point {number}"
     known = (name for name in ORDERED_BY if name in plan.coords)
     place = "".join(f" ({name} {_coordinate(name, plan.coords[name][1], index[-1])})" for name in known)
     return f"point {number}{place}"

@@ -17,8 +17,9 @@ def range_in_a_line(key: str, values: np.ndarray) -> str:
     """Return the values of a key in a line: all if they are few, else their range."""
     label = name_of(key)
     if values.dtype.kind == "f" and values.size > 6:
-        ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))
-        return f"{label}: {ends}" if " to " not in ends else f"{label}: {values.size} values, {ends}"
+        ends = dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max()))
+        count = f"{values.size} values, " if len(ends) > 1 else ""
+        return f"{label}: {count}{' to '.join(ends)}"
     if values.dtype.kind == "f" and key in COLUMNS and COLUMNS[key].unit not in ("-", "K"):
         unit = unit_of_largest(values.tolist(), COLUMNS[key].unit)
         numbers = dict.fromkeys(f"{converted(value, COLUMNS[key].unit, unit):.4g}" for value in values.tolist())

@@ -94,8 +94,9 @@ def _effects_table(result: StudyResult) -> str:
         return ""
     row = int(np.nanargmax(np.abs(columns_of_study(result)["coefficient"])))
     (effects,) = effects_at(result, [row])
-    place = f"at point {row + 1}, of the largest f"
-    return f"<h3>Effects not modelled, {place}</h3>{effects_table(effects, place)}"
+    place = f"at point {row + 1}"
+    which = ", of the largest f"
+    return f"<h3>Effects not modelled, {place}{which}</h3>{effects_table(effects, place, which)}"
 
 
 def _list(lines: list[str], kind: str = "ul") -> str:

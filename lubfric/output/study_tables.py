@@ -74,6 +74,7 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
         heads.append(head)
         cells.append(column)
     inputs_alone = len(heads)
+    place_of_interval = -1
     for name in REPORTED_NUMBERS:
         (head, column) = _column(result, columns, name, picked)
         if name != "coefficient":
@@ -81,6 +82,7 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
             cells.append(column)
             continue
         heads += [head, INTERVAL_OF_F]
+        place_of_interval = len(heads) - 1
         cells += _friction_and_interval(columns, picked)
     if any(each.numbers for each in warnings):
         heads.append("warnings")
@@ -90,15 +92,15 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
     body = []
     for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
         numbers = row[:inputs_alone] if status in failures else row
-        texts = "".join(_number_cell(head, text) for head, text in zip(heads, numbers))
+        texts = "".join(_number_cell(text, is_interval=i == place_of_interval) for i, text in enumerate(numbers))
         body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
     return table(heads, body)
 
 
-def _number_cell(head: str, text: str) -> str:
-    """Return a cell of a number in the column with this ``head``."""
+def _number_cell(text: str, *, is_interval: bool) -> str:
+    """Return a cell of a number, or of an interval, which is not broken."""
     style = TWO_LINES if "(" in text else ""
-    style = UNBROKEN if head == INTERVAL_OF_F else style
+    style = UNBROKEN if is_interval else style
     return f'<td class="number"{style}>{escape(text)}</td>'
 
 

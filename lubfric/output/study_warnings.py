@@ -47,12 +47,12 @@ def warning_lines(result: StudyResult) -> list[str]:
 
 def tolerance_lines(result: StudyResult) -> list[str]:
     """Return which points miss the tolerance of the numerical error, of the sampling error, and of the model-form error."""
-    lines = [
-        each.text_without_head
+    of_tolerances = [
+        each
         for each in result.gathered
         if each.violation is not None and each.is_note and each.violation.assumption in OF_TOLERANCES
     ]
-    return [f"{line}{'' if line.startswith('At point') else ALL_IN_TABLE}" for line in lines]
+    return [f"{each.text_without_head}{'' if each.names_all_points else ALL_IN_TABLE}" for each in of_tolerances]
 
 
 def why_no_intervals(result: StudyResult) -> str:

@@ -110,24 +110,29 @@ class ResidualTests:
         return not (self.systematic or self.too_large or self.too_far)
 
     @property
-    def text(self) -> str:
-        """Why the fit does not describe the data, in a sentence; "" if it does as far as the tests show."""
+    def reason(self) -> str:
+        """Why the fit does not describe the data; "" if it does as far as the tests show."""
         how = []
         if self.systematic:
             how.append(f"the residuals are systematic: {self._rarity}{self._cause}")
+        subject = "they are" if self.systematic else "the residuals are"
         if self.too_large:
-            how.append(f"they are {self.times_stated:.2g} times as large as the stated deviations")
+            how.append(f"{subject} {self.times_stated:.2g} times as large as the stated deviations")
         if self.too_far:
             expected = f" and above the model-form error of f, {100 * self.expected:.2g} %" if self.expected else ""
             how.append(
-                f"they are {100 * self.relative:.2g} % of f (root mean square), above the {100 * LARGEST_UNSTATED:g} % that "
+                f"{subject} {100 * self.relative:.2g} % of f (root mean square), above the {100 * LARGEST_UNSTATED:g} % that "
                 f"the scatter of a measurement explains{expected}"
             )
-        if not how:
+        return "; and ".join(how)
+
+    @property
+    def text(self) -> str:
+        """The `reason`, what that means and what to do, in sentences; "" if the fit describes the data as far as the tests show."""
+        if self.describes:
             return ""
-        how_in_words = "; and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
         return (
-            f"the fit does not describe the data: {how_in_words}. The intervals are not valid. Choose other parameters, wider "
+            f"the fit does not describe the data: {self.reason}. The intervals are not valid. Choose other parameters, wider "
             "bounds or another model, or check the data"
             + ("; state their deviations if they are known" if self.too_far else "")
         )

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,16 @@ import numpy as np
 from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import FrictionResult, cite_together
-from ..models.shared import GatheredTexts, Violation, alpha_of_fit_in_words, gathered_on_curve, percent, student
+from ..models.shared import (
+    Assumption,
+    GatheredTexts,
+    Violation,
+    alpha_of_fit_in_words,
+    consequence_of_numerical_error,
+    gathered_on_curve,
+    percent,
+    student,
+)
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests
@@ -41,10 +50,8 @@ UNREPORTED_MOVE = 0.01
 # Correlation of two parameters, without sign, above which it is reported. A convention.
 CORRELATED = 0.9
 
-# What the warnings of a point say of its tolerance, and what those of a fit say that set it.
-OF_THE_FIT = {
-    "numerics.tolerance sets this limit": "the fit set this limit from the noise of the data",
-}
+# What sets the limit of the numerical error where the fit chose its tolerance.
+BY_NOISE = "the fit set this limit from the noise of the data"
 
 # Largest f of the picture over that of points and curve. A choice, so that no mark is cut.
 HEADROOM = 1.08
@@ -164,15 +171,10 @@ class FitResult(Renamed, Shown):
     def gathered(self) -> tuple[GatheredTexts, ...]:
         """The violations of all points, in one record for each assumption."""
         unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
-        records = gathered_on_curve(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
-        if not self.tolerance_in_words:
-            return records
-        return tuple(
-            replace(
-                each, statement=reduce(lambda text, words: text.replace(*words), OF_THE_FIT.items(), each.statement)
-            )
-            for each in records
-        )
+        violations = self.violations
+        if self.tolerance_in_words:
+            violations = tuple(tuple(map(_with_limit_of_fit, of_point)) for of_point in violations)
+        return gathered_on_curve(list(zip(self.measured.x.tolist(), violations)), unit, name)
 
     @property
     def at_bounds(self) -> tuple[str, ...]:
@@ -440,6 +442,13 @@ class FitResult(Renamed, Shown):
         from scipy.stats import t
 
         return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))
+
+
+def _with_limit_of_fit(violation: Violation) -> Violation:
+    """Return a ``violation`` that says of the numerical error that the fit set its limit; any other one as it is."""
+    if violation.assumption != Assumption.NUMERICAL_ERROR:
+        return violation
+    return replace(violation, consequence=consequence_of_numerical_error(violation.effect, BY_NOISE))
 
 
 def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray] | None) -> None:

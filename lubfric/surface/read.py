@@ -187,6 +187,7 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         missing,
         table.spacing,
         notes=table.notes,
+        unused_steps=table.unused_steps,
         unread_sizes=table.unread_sizes,
     )
 
@@ -206,15 +207,15 @@ def _masked(
     spacing: Any,
     *,
     notes: tuple[str, ...] = (),
+    unused_steps: str = "",
     unread_sizes: tuple[str, ...] = (),
 ) -> Surface:
     """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
-    heights. ``unread_sizes``: lines that may state a missing spacing."""
+    heights. ``unused_steps``: why steps of the file are not its spacing; ``unread_sizes``: lines that may state a missing spacing."""
     if spacing is None:
         unread = f"{' and '.join(unread_sizes)} may state it, but without a known name and unit"
         why = unread if unread_sizes else "the file does not state it"
-        why = next((note for note in notes if note.startswith("steps of")), why)
-        message = f"spacing of {path.name} is missing: {why}"
+        message = f"spacing of {path.name} is missing: {unused_steps or why}"
         raise InputError(message, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
     measured = ~np.isnan(heights)
     for value in missing_values:

@@ -106,6 +106,7 @@ class TextMap:
     spacing: tuple[float, float] | None
     missing_value: float | None = None
     notes: tuple[str, ...] = field(default=())
+    unused_steps: str = ""  # why steps that the file states are not its spacing
     unread_sizes: tuple[str, ...] = ()  # lines that may state the spacing, where there is none
 
 
@@ -197,8 +198,8 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
         directions &= table.directions
     grid = grid_of(header, line_count, column_count, directions=frozenset(directions))
     steps = table.own_spacing if table.own_spacing is not None else grid.steps
-    if steps is None and border is None:
-        notes += _unitless_steps(path, header, spacing)
+    unused_steps = _unitless_steps(path, header, spacing) if steps is None and border is None else ()
+    notes += unused_steps
     if grid.steps is not None and table.own_spacing is not None:
         _same_spacing(path, table.own_spacing, grid.steps, either=grid.either)
     if border is not None:
@@ -216,7 +217,8 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
         _same_spacing(path, spacing, steps, either=grid.either)
         steps = spacing
     elif grid.either and table.own_spacing is None and border is None and steps is not None:
-        notes += (f"steps of {steps[0]:g} m along X and {steps[1]:g} m along Y: lines may run along either",)
+        unused_steps = (f"steps of {steps[0]:g} m along X and {steps[1]:g} m along Y: lines may run along either",)
+        notes += unused_steps
         steps = None
     steps = steps if spacing is None else spacing
     unread = _unread_sizes(table)
@@ -230,6 +232,7 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
         spacing=steps,
         missing_value=header.value("missing"),
         notes=notes,
+        unused_steps="".join(unused_steps),
         unread_sizes=tuple(dict.fromkeys(statement.worded() for statement in [*unread, *sizes])),
     )
 

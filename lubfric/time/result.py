@@ -160,7 +160,7 @@ class TransientResult(Renamed, Shown):
         count = len(times)
         end = worded(float(times[-1]), "s")
         if not self.report.converged:
-            return f"Not converged: {self.report.message.partition(': ')[2]}."
+            return f"Not converged: {self.report.outcome}."
         if not self.is_complete:
             return (
                 f"Refused: all {count} outputs to t = {end} are solved, but at {self.refused_outputs} of them an assumption "

@@ -137,7 +137,7 @@ def test_warnings_of_a_fit_do_not_call_its_tolerance_that_of_the_scene(fitted):
     (by_solve,) = violations_by_numerical_error(0.02, solved.numerics.tolerance, "")
     assert "numerics.tolerance" in by_solve.text
     (text,) = replace(fitted, violations=((by_solve,),) * SPEEDS.size).validity
-    assert "the fit set this limit from the noise of the data" in text and "numerics.tolerance" not in text
+    assert "The fit set this limit from the noise of the data" in text and "numerics.tolerance" not in text
 
 
 def test_the_true_values_are_in_the_region(fitted):

@@ -32,8 +32,6 @@ OUTSIDE_OF_CHOSEN = (
 # The name of this model (`lubfric.models.quick.QuickModel.name`).
 QUICK = "quick"
 
-# The lambda ratio by which contacts are compared with those of the calibration.
-RATIO_IN_WORDS = "lambda ratio by closed forms"
 # What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
 WIDENED = "use f with its model-form error, which includes this increase"
@@ -109,8 +107,8 @@ def error_model_of(scene: Scene) -> ErrorModel:
 class Outside:
     """A number of a contact that is outside of the range of the campaign.
 
-    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range. A lambda ratio and
-        its limit are both as starvation, shear thinning and the heat of the inlet make them, as the result has it
+    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range; is_thicker : whether it is the film over
+        Sq, and above the range. A lambda ratio and its limit are both as starvation, shear thinning and the heat of the inlet make them, as the result has it
     """
 
     what: str
@@ -118,14 +116,14 @@ class Outside:
     limit: float
     unit: str
     distance: float
+    is_thicker: bool = False
 
     def violation_in(self, scene: Scene) -> Violation:
         """Return what a result of ``scene``, and `lubfric info` before it, says of it: a note where the scene does not name the
         quick model, because the user has not chosen it then."""
         is_named = scene.numerics.model == QUICK
         factor = 1e-9 if self.unit == "Pa" else 1.0
-        is_thick = self.what == RATIO_IN_WORDS and self.value > self.limit
-        recommendation = WIDENED if is_thick else BY_DETERMINISTIC
+        recommendation = WIDENED if self.is_thicker else BY_DETERMINISTIC
         return Violation(
             assumption=Assumption.CALIBRATED,
             what=self.what,
@@ -150,7 +148,7 @@ def out_of_range(
     }
     if sq and speed:
         values["moes_ratio"] = (
-            RATIO_IN_WORDS,
+            "lambda ratio by closed forms",
             scene.line_contact(abs(speed)).moes_film / sq,
             "",
         )
@@ -164,7 +162,16 @@ def out_of_range(
         is_slow = name == "slip" and value < low
         distance = low - value if is_slow else abs(math.log(value / limit))
         factor = _full_load_factor(scene, speed) if name == "moes_ratio" else 1.0
-        outside.append(Outside(what=what, value=factor * value, limit=factor * limit, unit=unit, distance=distance))
+        outside.append(
+            Outside(
+                what=what,
+                value=factor * value,
+                limit=factor * limit,
+                unit=unit,
+                distance=distance,
+                is_thicker=name == "moes_ratio" and value > high,
+            )
+        )
     others = sum(not law.is_calibrated for law in scene.lubricant.shear_laws)
     if others:
         outside.append(

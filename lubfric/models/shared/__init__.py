@@ -10,6 +10,7 @@ from .checks import (
     LARGE_NUMERICAL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,
+    consequence_of_numerical_error,
     is_of_impossible_stress,
     peak_hertz_pressure,
     violations_by_deflection,

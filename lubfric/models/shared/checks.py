@@ -78,6 +78,9 @@ ON_ENDS = 0.01
 NUMERICAL_ERROR = "estimated numerical error of f"
 SAMPLING_ERROR = "sampling error of f at 95 %"
 
+# What sets the limit of the numerical error of a point.
+BY_TOLERANCE = "numerics.tolerance sets this limit"
+
 # Numerical error of f, relative, from which on it is a warning even where an interval includes it [-]. A convention: no
 # formula is fitted to such points.
 LARGE_NUMERICAL_ERROR = 0.2
@@ -493,14 +496,17 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
         )
 
 
+def consequence_of_numerical_error(error: float, origin_of_limit: str = BY_TOLERANCE) -> str:
+    """Return what a numerical ``error`` of f, relative, above its limit means; ``origin_of_limit``: what sets the limit."""
+    if error > ERROR_OF_ORDER_OF_MAGNITUDE:
+        return "the error is so large that f is only an order of magnitude"
+    return f"{origin_of_limit}; the interval of f, where it is known, includes the error"
+
+
 def violations_by_numerical_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): an
     interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
     if error is not None and error > tolerance:
-        if error > ERROR_OF_ORDER_OF_MAGNITUDE:
-            why = "the error is so large that f is only an order of magnitude"
-        else:
-            why = "numerics.tolerance sets this limit; the interval of f, where it is known, includes the error"
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,
@@ -508,7 +514,7 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
             value=100 * error,
             limit=100 * tolerance,
             unit="%",
-            consequence=why,
+            consequence=consequence_of_numerical_error(error),
             recommendation=recommendation,
             effect=error,
         )

@@ -286,12 +286,14 @@ class GatheredTexts:
     statement : what is violated, what that does and what to do, in sentences
     place : the points, as text; "" of no point
     numbers : of these points, from 1; () on a curve
+    names_all_points : whether ``place`` has each of these numbers
     violation : the worst one; None: it is of no point
     """
 
     statement: str
     place: str = ""
     numbers: tuple[int, ...] = ()
+    names_all_points: bool = False
     violation: Violation | None = None
 
     @property
@@ -333,6 +335,7 @@ def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts
                 statement=worst.statement(_range_in_table(group), place, advised.lower()),
                 place=numbers_in_words(sorted(group), len(rows)),
                 numbers=tuple(sorted(group)),
+                names_all_points=len(_runs(sorted(group))) <= MOST_PLACES,
                 violation=worst,
             )
         )
@@ -375,17 +378,22 @@ def numbers_in_words(numbers: list[int], count: int) -> str:
         return "At the point"
     if len(numbers) == 1:
         return f"At point {numbers[0]}"
+    shown = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in _runs(numbers)]
+    if len(shown) > MOST_PLACES:
+        return f"At {len(numbers)} of {count} points"
+    *before, last = ", ".join(shown).rsplit(", ", 1)
+    return f"At points {' and '.join((*before, last))}"
+
+
+def _runs(numbers: Iterable[int]) -> list[list[int]]:
+    """Return the runs of consecutive ``numbers``, which are in order."""
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][-1] + 1:
             runs[-1].append(number)
         else:
             runs.append([number])
-    shown = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
-    if len(shown) > MOST_PLACES:
-        return f"At {len(numbers)} of {count} points"
-    *before, last = ", ".join(shown).rsplit(", ", 1)
-    return f"At points {' and '.join((*before, last))}"
+    return runs
 
 
 def at_value(value: float, unit: str, name: str) -> str:
