@@ -39,8 +39,8 @@ class CurveResult(Renamed, Shown):
 
     @property
     def without_rolling(self) -> np.ndarray:
-        """f at every point without the rolling part of the film's force [-], as the mean over both signs of slip; NaN
-        where a point failed."""
+        """f at every point as the mean of both surfaces [-], without rolling resistance, as the mean over both signs
+        of slip; NaN where a point failed."""
         return np.array([np.nan if point is None else without_rolling(point) for point in self.points])
 
     @property
@@ -103,10 +103,14 @@ def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], 
 
 
 def without_rolling(point: FrictionResult) -> float:
-    """Return f of a point without the rolling part of the film's force [-]. That part points the way the surfaces
-    entrain, and the rest the way they slide. So the mean of f over both signs of slip is without it, as some rigs
-    measure it."""
-    return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
+    """Return the mean of the friction coefficients of both surfaces at a point [-], each against its own sliding.
+
+    Shear by sliding acts on both alike, and rolling resistance R opposes the motion of both: f is that of surface 2, and that of
+    surface 1 is f - R/F_T at a positive slide-roll ratio, f + R/F_T at a negative one. Between smooth surfaces it is the mean of f over
+    both signs of slip. In pure rolling f is against the entrainment.
+    """
+    sense = -1.0 if point.slide_roll_ratio < 0 else 1.0
+    return point.coefficient - sense * 0.5 * point.rolling_resistance / (point.contact_load + point.film_load)
 
 
 def columns_of(points: Sequence[Any]) -> dict[str, np.ndarray]:

@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -81,6 +82,18 @@ def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
     rolling = there.coefficient - there.without_rolling
     assert np.all(rolling > 5e-5) and rolling[0] == pytest.approx(rolling[2], rel=0.1)
     assert there.without_rolling[0] < rolling[0] < 0.01 * there.without_rolling[1]  # the rest vanishes with the slip
+
+
+def test_f_without_rolling_is_the_mean_of_the_forces_on_both_surfaces():
+    """Their powers add up to the power loss, P = F_1 u_1 + F_2 u_2, and their sum is the rolling resistance R: the rest, P - R U, is
+    their mean difference times the sliding speed. The pressure on flanks of moving roughness, which opposes sliding, is in it."""
+    curve = lubfric.traction(SCENE, [-0.4, 0.4], speed=0.1)
+    resistance = curve["rolling_resistance"]
+    sliding = np.array([-0.04, 0.04])
+    rest = (curve["power_loss"] - 0.1 * resistance) / (SCENE.bodies.load * np.abs(sliding))
+    np.testing.assert_allclose(curve.without_rolling, rest, rtol=1e-9)
+    flanks = replace(curve.points[1], rolling_force=curve["rolling_force"][1] + 1.0)  # part of f, no resistance to rolling
+    assert replace(curve, points=(None, flanks)).without_rolling[1] == curve.without_rolling[1]
 
 
 def test_rolling_backwards_without_sliding_is_resisted_as_forwards():
