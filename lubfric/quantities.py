@@ -19,8 +19,8 @@ T = TypeVar("T")  # float, or an array over operating points
 class Quantity(NamedTuple):
     """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
     none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know;
-    ``is_friction``: whether it is a part of the friction force, which is against the sliding in steady motion, and in time along
-    the motion, on the upper surface.
+    ``is_friction``: whether it is a part of the friction force, on the upper surface: positive against its sliding in steady
+    motion, and along -x in time.
 
     Of a number of a result, what changes it after its strips are solved, and where it is known: ``follows_asperity_load``: in
     proportion to the asperity load of moving roughness; ``follows_sliding``: in proportion to the sliding part of f, where its

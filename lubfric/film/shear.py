@@ -16,7 +16,7 @@ from .elastic_shear import ElasticContact, elastic_shear
 
 @dataclass(frozen=True, kw_only=True)
 class ShearForce:
-    """Forces [N] on the upper surface, in the direction in which it slides over the lower one.
+    """Forces [N] on the upper surface, against its sliding over the lower one.
 
     - ``couette``: from the difference of the surface speeds; ``rolling``: from the pressure gradient; ``total``: their
       sum, F_sh of Eq. (10).

@@ -422,7 +422,7 @@ def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> Non
         (first, second) = (converted(end, "N", unit) for end in ends)
         axes.fill_between(t, first, second, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
     force = np.where(moving, converted(c["friction_force"], "N", unit), np.nan)
-    axes.plot(t, force, color=figures.BLUE, lw=1.2, label="friction force on the upper surface, along +x")
+    axes.plot(t, force, color=figures.BLUE, lw=1.2, label="friction force on the upper surface, positive along −x")
     axes.axhline(0.0, color=figures.GREY, lw=0.6)
     axes.set(ylabel=f"force ({printed(unit)})")
     figures.key_above(axes)
