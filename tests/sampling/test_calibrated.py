@@ -733,6 +733,20 @@ def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():
     assert stress[1] == pytest.approx(stress[0], rel=1e-9)
 
 
+def test_a_bias_that_raises_f_ends_where_asperities_carry_all_of_the_load():
+    """No stress is above f_b p then, so f is at most f_b and the rolling part, however large the bias."""
+    load = HEAVIER.bodies.load
+    f_b = HEAVIER.bodies.boundary_friction_coefficient
+    strips = solve_on_long_cells(lubfric.prepare(HEAVIER, patch()), 0.03)
+    few = replace(strips, bias=0.05).numbers
+    all_rub = replace(strips, bias=3.0).numbers
+    assert strips.levels.numbers["coefficient"] < few["coefficient"] < all_rub["coefficient"]
+    assert load * all_rub["coefficient"] == pytest.approx(f_b * load + all_rub["rolling_force"], rel=1e-9)
+    assert all_rub["contact_load"] == pytest.approx(load, rel=1e-12)
+    assert all_rub["couette_force"] == pytest.approx(0.0, abs=1e-9 * load)
+    assert all_rub["boundary_force"] == pytest.approx(f_b * load, rel=1e-9)
+
+
 def test_the_former_name_of_the_quick_model_is_accepted(tmp_path):
     former = PAPER.with_(numerics={"model": "load-sharing"})
     assert former == PAPER.with_(numerics={"model": "quick"})

@@ -107,9 +107,9 @@ class StripsOnLongCells:
     def numbers(self) -> dict[str, float]:
         """The numbers of the strips without their bias, which is one of the sliding part of f.
 
-        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain.
-        Where the asperity load cannot take all of it, because asperities carry none or all of the load, or have the
-        stress of the film, the remainder is attributed to the shear of the film. So the forces add up to f.
+        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain. A bias that
+        raises f ends where asperities carry all of the load, because their stress is the larger one. Where asperities have the
+        stress of the film, or cannot carry less, the remainder is attributed to the shear of the film. So the forces add up to f.
         """
         numbers = self.levels.numbers
         if self.scene.motion.slide_roll_ratio == 0:
@@ -117,16 +117,21 @@ class StripsOnLongCells:
         load = self.scene.bodies.load
         rolling = self.levels.rolling_of_strips
         force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
-        f_b = self.scene.bodies.boundary_friction_coefficient
-        stress_of_film = numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else f_b
-        contrast = f_b - stress_of_film
         load_ratio = numbers["contact_load"] / load
-        if contrast > LEAST_CONTRAST * f_b:
-            load_ratio = min(max(load_ratio + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
+        if self._contrast > LEAST_CONTRAST * self.scene.bodies.boundary_friction_coefficient:
+            force = min(force, load * (numbers["coefficient"] + self._contrast * (1 - load_ratio)))
+            load_ratio = max(load_ratio + (force / load - numbers["coefficient"]) / self._contrast, 0.0)
         changed = _with_asperity_load_ratio(self.scene, numbers, load_ratio) | {"coefficient": force / load}
         answer = with_divided_sliding(changed, numbers, load)
         forces = {name: answer[name] for name in ("coefficient", *FRICTION_FORCES)}
         return _with_asperity_load_ratio(self.scene, numbers, answer["contact_load"] / load) | forces
+
+    @property
+    def _contrast(self) -> float:
+        """The friction coefficient of asperities less that of the film."""
+        numbers = self.levels.numbers
+        of_film = numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else 0.0
+        return self.scene.bodies.boundary_friction_coefficient - of_film
 
     @property
     def bounds(self) -> Sides:
