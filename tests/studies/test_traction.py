@@ -92,7 +92,8 @@ def test_f_without_rolling_is_the_mean_of_the_forces_on_both_surfaces():
     sliding = np.array([-0.04, 0.04])
     rest = (curve["power_loss"] - 0.1 * resistance) / (SCENE.bodies.load * np.abs(sliding))
     np.testing.assert_allclose(curve.without_rolling, rest, rtol=1e-9)
-    flanks = replace(curve.points[1], rolling_force=curve["rolling_force"][1] + 1.0)  # part of f, no resistance to rolling
+    pushed = curve["rolling_force"][1] + 1.0  # by flanks: a part of f, and no resistance to rolling
+    flanks = replace(curve.points[1], rolling_force=pushed)
     assert replace(curve, points=(None, flanks)).without_rolling[1] == curve.without_rolling[1]
 
 
