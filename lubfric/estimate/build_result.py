@@ -88,7 +88,6 @@ def result_of(
         uncertainty=uncertainty,
         errors=number_errors_of(numbers, errors, answer.errors.why_not_known, answer.errors.reasons),
         decision=decision,
-        slide_roll_ratio=scene.motion.slide_roll_ratio,
         power_loss_interval=loss.interval,
         validity=violations,
         unmodelled_effects=unmodelled_effects(

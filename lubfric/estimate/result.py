@@ -46,7 +46,6 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         the model (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
     decision : which model answered, what was solved, and why; ``decision.text`` describes it
-    slide_roll_ratio : sliding over entrainment speed, (u2 - u1)/U [-]
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Violation`). A severe one is there only where it was accepted
     unmodelled_effects : effects that are not modelled, each with the likely change of f (relative; NaN: not known) and
@@ -63,7 +62,6 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     uncertainty: Uncertainty
     errors: NumberErrors
     decision: Decision
-    slide_roll_ratio: float = math.nan
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
     validity: tuple[Violation, ...] = ()
     unmodelled_effects: tuple[UnmodelledEffect, ...] = ()

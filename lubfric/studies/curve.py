@@ -1,6 +1,7 @@
 """Solved points over one number, each of which may have failed: what Stribeck and traction curves have in common, and
 their tables."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar, TypeVar
 
@@ -20,7 +21,7 @@ from ..models.shared import GatheredTexts, Violation, gathered_on_curve, in_a_ce
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted, heading
 
 
-class CurveResult(Renamed, Shown):
+class CurveResult(ABC, Renamed, Shown):
     """Base of the results of curves: ``points`` (None where failed), ``errors`` {index: exception}, ``report``.
     ``result["contact_load"]`` is an array of that number of all points, NaN where one failed.
 
@@ -38,10 +39,16 @@ class CurveResult(Renamed, Shown):
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
 
     @property
+    @abstractmethod
+    def slide_roll_ratios(self) -> np.ndarray:
+        """The slide-roll ratio of every point [-], (n,)."""
+
+    @property
     def without_rolling(self) -> np.ndarray:
         """f at every point as the mean of both surfaces [-], without rolling resistance, as the mean over both signs
         of slip; NaN where a point failed."""
-        return np.array([np.nan if point is None else without_rolling(point) for point in self.points])
+        pairs = zip(self.points, self.slide_roll_ratios)
+        return np.array([np.nan if point is None else without_rolling(point, ratio) for point, ratio in pairs])
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
@@ -102,14 +109,14 @@ def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], 
     return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
 
 
-def without_rolling(point: FrictionResult) -> float:
+def without_rolling(point: FrictionResult, slide_roll_ratio: float) -> float:
     """Return the mean of the friction coefficients of both surfaces at a point [-], each against its own sliding.
 
     Shear by sliding acts on both alike, and rolling resistance R opposes the motion of both: f is that of surface 2, and that of
     surface 1 is f - R/F_T at a positive slide-roll ratio, f + R/F_T at a negative one. Between smooth surfaces it is the mean of f over
     both signs of slip. In pure rolling f is against the entrainment.
     """
-    sense = -1.0 if point.slide_roll_ratio < 0 else 1.0
+    sense = -1.0 if slide_roll_ratio < 0 else 1.0
     return point.coefficient - sense * 0.5 * point.rolling_resistance / (point.contact_load + point.film_load)
 
 

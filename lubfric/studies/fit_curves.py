@@ -166,7 +166,11 @@ class FitCurves:
 
     def _measured_part(self, points: tuple[FrictionResult, ...]) -> np.ndarray:
         """Return f of ``points`` (n,), with or without the rolling part of the film's force, as was measured."""
-        return np.array([p.coefficient if self.measured.rolling else without_rolling(p) for p in points])
+        if self.measured.rolling:
+            return np.array([point.coefficient for point in points])
+        ratio = self.scene.motion.slide_roll_ratio
+        ratios = np.full(len(points), ratio) if self.measured.over == SPEED else self.measured.x
+        return np.array([without_rolling(*pair) for pair in zip(points, ratios)])
 
     def _boundary_friction(self, unit: np.ndarray) -> float:
         """Return f_b at ``unit``, a parameter."""

@@ -56,6 +56,10 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     plot = curve_axes
 
+    @property
+    def slide_roll_ratios(self) -> np.ndarray:
+        return np.full(len(self.points), self.scene.motion.slide_roll_ratio)
+
     def at(self, speed: ArrayLike) -> np.ndarray:
         """Return f at any speeds [m/s] between the slowest and the fastest, interpolated
         (`lubfric.studies.interpolate`). They have the direction of the curve: a finite piece of a surface slides
@@ -305,6 +309,10 @@ class TractionResult(CurveResult):
         """Friction coefficient [-]. It holds the rolling part of the film's force, which does not vanish with the slip;
         ``without_rolling`` is f without it."""
         return self["coefficient"]
+
+    @property
+    def slide_roll_ratios(self) -> np.ndarray:
+        return self.ratio
 
     @property
     def gaps(self) -> list[Gap]:
