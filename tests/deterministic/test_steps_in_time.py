@@ -6,15 +6,20 @@ from itertools import islice
 import numpy as np
 import pytest
 
+import lubfric
 from lubfric.models.deterministic import (
     ECONOMICAL,
     TIGHT,
+    RoughBody,
     evaluated,
+    lay_out,
+    mass_balance,
     moments,
     moving,
     moving_strip,
     newton,
     solve_moving_strip,
+    state,
     travelling,
 )
 from verification.campaigns.calibration.case import drawn
@@ -96,3 +101,22 @@ def test_a_step_begins_with_the_load_and_the_mean_gap_of_the_moment_before(monke
     is_pressed = start > 0.1 * start.max()
     moved = np.concatenate([before.gap[:1], before.gap[:-1]])
     assert begun[0].gap[is_pressed].mean() == pytest.approx(moved[is_pressed].mean(), rel=1e-9)
+
+
+def test_a_step_balances_the_mass_once_before_its_newton_steps_and_once_after_each(monkeypatch):
+    """Where no Newton step is halved. Its start needs the gap alone, which takes no mass balance."""
+    surface = lubfric.generate_surface((48, 24), 2e-6, sq=50e-9, correlation_length=8e-6, acf="gaussian", seed=1)
+    line = lubfric.load_scene("paper").line_contact(0.3)
+    problem = lay_out(surface, line, sliding=0.03, boundary_friction=0.1)
+    counted = []
+
+    def noted(*given, **how):
+        counted.append(1)
+        return mass_balance(*given, **how)
+
+    monkeypatch.setattr(state, "mass_balance", noted)
+    passing = moments(travelling(problem, [RoughBody(surface, 0.3)]), problem.spacing[0] / 0.3, shift=1.0)
+    next(passing)
+    counted.clear()
+    moment = next(passing)
+    assert len(counted) == 1 + moment.work.factorisations

@@ -37,7 +37,7 @@ from .newton import Work, newton
 from .problem import Problem, shifted
 from .result import DeterministicResult, assemble
 from .solve import solve_point
-from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, extrapolated_mass, residuals
+from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, extrapolated_mass, gap_of, residuals
 
 # The effects of half and twice a constant are those named in `moving_strip`.
 
@@ -304,7 +304,7 @@ def _begun(problem: Problem, at: Iterate, before: State, cells: float, smooth: i
     """
     state = _moved(at.state, before, cells, smooth, rate)
     state = replace(state, pressure=state.pressure * (at.state.pressure.sum() / state.pressure.sum()))
-    gap = evaluated(problem, state).gap
+    gap = gap_of(problem, state)
     is_pressed = state.pressure > PRESSED_PART * state.pressure.max()
     missing = float((moved_downstream(at.gap, cells) - gap)[is_pressed].mean())
     return replace(state, approach=state.approach + missing)

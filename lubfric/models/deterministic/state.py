@@ -156,9 +156,14 @@ def extrapolated_mass(
     return mass + np.clip(change, -MOST_EXTRAPOLATED * mass, max(MOST_EXTRAPOLATED, part) * mass)
 
 
+def gap_of(problem: Problem, state: State) -> np.ndarray:
+    """Return the gap h [m] (nx, ny) of ``state``; below zero where the bodies overlap."""
+    return problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
+
+
 def evaluated(problem: Problem, state: State, history: TimeHistory | None = None) -> Iterate:
     """Return gap and mass balance of ``state``, steady or (with a ``history``) of an implicit step in time."""
-    gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
+    gap = gap_of(problem, state)
     follows = history is not None and history.follows_lubricant
     flows = mass_balance(problem, state.pressure, gap, state.fill, follows_lubricant=follows)
     at = Iterate(problem=problem, state=state, gap=gap, mass_balance=flows, history=history, residual=flows.residual)
