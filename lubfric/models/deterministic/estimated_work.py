@@ -18,17 +18,16 @@ from ...scene import (
 )
 from ...surface import Surface
 from ..contract import AUTO
-from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, peak_hertz_pressure, student
+from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, student
 from ..work_estimate import MeasuredTime, WorkEstimate
 from .cells_in_motion import CellsInMotion
-from .counted_work import MOST_WORK_OF_POINT, work_of_steps
+from .counted_work import MOST_WORK_OF_POINT
 from .expected_friction import expected_friction, solved_ends_of_hardness, solved_ends_of_shear
-from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps, expected_steps_of_patch
+from .expected_steps import expected_steps
 from .expected_steps_in_time import StepFacts
 from .first_steps import FirstSteps
 from .ladder import SOFT_CELL_ERROR
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
-from .linear import HIGH_PRESSURE
 from .moving import film_half_width
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .pieces import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP
@@ -42,17 +41,8 @@ from .strip_on_two_grids import (
     shortened,
 )
 
-# Newton steps on cells half as long, which begin at the solution on longer ones [-].
-FINER_STEPS = 6
-
-# Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so
-# many. A thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A
-# roller of 1 GPa takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
-FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
-
-# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
-# the points.
-LAST_STEPS = 10
+# Part of the points whose map is shorter than a piece that solve it as a whole on cells a quarter as long [-].
+QUARTER_OF_SHORT_STRIP = 0.5
 
 # Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz half-width,
 # where it is largest; the exponents of the cell over these; the logarithm of the film of the smooth contact over Sq at which it is
@@ -75,10 +65,6 @@ CHANGE_IF_NOT_SMOOTH = 1.5
 # Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two. A choice
 # between these.
 ERROR_OVER_CHANGE = 1.5
-
-# Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
-# (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
-ROUGH_WORK = 3.5
 
 # Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more. It
 # follows from a quarter of the cells each time, 1/4 + 1/16 + ...
@@ -256,15 +242,14 @@ def _work_at_rest(
     (fx, fy) = sample_coarsening_of(scene, sample)
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
-    steps = expected_steps(scene, sq, speed)
     cells = _cells_of_strip(scene, sample, sq=sq, speed=speed)
+    columns = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx)
+    steps = expected_steps(scene, sq, speed, columns)
     if sample.refines_in_place or sample.piece_is_strip(LENGTH_OF_LAST_PIECE):
         return _work_in_levels(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth)
     lengths = sample.correlation_lengths[1] / sample.strip_length
     if lengths * LENGTH_OF_SHORT_STRIP > 1:
-        return _work_of_short_strip(
-            scene, sample, steps, cells=cells, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth
-        )
+        return _work_of_short_strip(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth)
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
     again = steps.work(cells, steps.again) * (OF_SLOPE + ends)
     left = fx * ux, fy * uy
@@ -276,11 +261,13 @@ def _work_at_rest(
         number = PIECES_OF_RUBBED if is_rubbed else 1.0
         if count > 1:
             number = PIECES_OF_MORE_STRIPS
-        pieces += number * (1 + ON_LONGER_CELLS) * steps.work(finer, max(steps.first, _finer_steps(scene, sq, speed)))
+        on_shorter = expected_steps(scene, sq, speed, min(left[0], 2) * columns)
+        pieces += number * (1 + ON_LONGER_CELLS) * on_shorter.work(finer, on_shorter.first)
     if max(left) >= 4:
         finest = min(left[0], 4) * min(left[1], 4) * LENGTH_OF_LAST_PIECE * lengths * cells
         part = _part_of_last_level(scene, sq=sq, speed=speed, cell=0.5 * fx * dx, count=count)
-        pieces += part * (1 + ON_LONGER_CELLS) * steps.work(finest, steps.first)
+        on_shortest = expected_steps(scene, sq, speed, min(left[0], 4) * columns)
+        pieces += part * (1 + ON_LONGER_CELLS) * on_shortest.work(finest, on_shortest.first)
     if scene.numerics.max_work is not None:
         pieces = min(pieces, PIECES_SHARE * max(scene.numerics.max_work - strips, 0.0))
     return strips + pieces + again
@@ -306,23 +293,17 @@ def _work_in_levels(
         (fx, fy) = coarsening
         return shortened(scene, sample, MapCoarsening((fx, fy))) if is_patch else (max(1, fx // 2), max(1, fy // 2))
 
-    def solves_on(coarsening: tuple[int, int]) -> tuple[float, float]:
-        along = columns / coarsening[0]
-        cells = along * rows / coarsening[1]
-        steps = expected_steps_of_patch(scene, sq, speed, along)
-        return steps.work(cells, steps.first), steps.work(cells, steps.again)
-
     (sx, sy) = sample_coarsening_of(scene, sample)
     coarsening = sx * sample.cells.coarsening[0], sy * sample.cells.coarsening[1]
-    (on_longer, _) = solves_on((2 * coarsening[0], 2 * coarsening[1]))
-    (first, again) = solves_on(coarsening)
+    (on_longer, _) = _solves_on(scene, sample, (2 * coarsening[0], 2 * coarsening[1]), sq=sq, speed=speed)
+    (first, again) = _solves_on(scene, sample, coarsening, sq=sq, speed=speed)
     work = count * (on_longer + first) + OF_SLOPE * again
     most = MOST_WORK_OF_POINT if numerics.max_work is None else PIECES_SHARE * numerics.max_work
     log_work = 0.0
     left = 1.0  # probability that the cells are shortened so far
     halvings = 0
     while (shorter := shorten(coarsening)) != coarsening:
-        (next_first, next_again) = solves_on(shorter)
+        (next_first, next_again) = _solves_on(scene, sample, shorter, sq=sq, speed=speed)
         part = 1.0
         is_needed = numerics.grid == "given" or (not is_patch and halvings == 0 and not is_smooth)
         if not is_needed:
@@ -372,41 +353,36 @@ def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, c
 
 
 def _work_of_short_strip(
-    scene: Scene,
-    sample: Sample,
-    steps: ExpectedSteps,
-    *,
-    cells: float,
-    sq: float,
-    speed: float,
-    count: int,
-    ends: float,
-    is_smooth: bool,
+    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: float, is_smooth: bool
 ) -> float:
     """Return the same as `_work_at_rest` of strips that are shorter than `LENGTH_OF_SHORT_STRIP`: all of one is solved on
-    shorter ``cells``."""
+    shorter cells."""
     (fx, fy) = sample_coarsening_of(scene, sample)
     (ux, uy) = sample.cells.coarsening
-    again = work_of_steps(cells, AGAIN) * (1 + ends)
-    is_coarse = fx * ux >= 4 <= fy * uy
-    shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if is_coarse else 0.0
-    finer = work_of_steps(cells * fx * fy, _finer_steps(scene, sq, speed))
+    cx = fx * ux
+    cy = fy * uy
+    (on_longer, _) = _solves_on(scene, sample, (2 * cx, 2 * cy), sq=sq, speed=speed)
+    (first, again) = _solves_on(scene, sample, (cx, cy), sq=sq, speed=speed)
+    shorter = (
+        _solves_on(scene, sample, (max(1, cx // 2), max(1, cy // 2)), sq=sq, speed=speed)[0] if max(cx, cy) > 1 else 0.0
+    )
+    if cx >= 4 <= cy:
+        shorter += QUARTER_OF_SHORT_STRIP * _solves_on(scene, sample, (cx // 4, cy // 4), sq=sq, speed=speed)[0]
     if is_smooth and scene.line_contact(abs(speed)).moes_film < RUBBED_FILM_OF_SHORT_STRIP * sq:
-        finer *= PIECES_OF_RUBBED
         shorter *= PIECES_OF_RUBBED
-    is_usual = scene.lubricant.inlet_film is None and not are_soft(scene.line_contact(abs(speed)), sq)
-    times = 1.0 if is_usual else steps.first / STRIP_STEPS  # `FINER_STEPS_HEAVY` has what thin films take
-    seconds = times * (count * work_of_steps(cells, STRIP_STEPS) + finer + again) + shorter
-    return seconds if is_smooth or is_coarse else ROUGH_WORK * seconds
+    return count * (on_longer + first) + (OF_SLOPE + ends) * again + shorter
 
 
-def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
-    """Return the Newton steps on cells half as long, of a surface of ``sq`` [m] at ``speed`` [m/s]."""
-    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    if thickened <= HIGH_PRESSURE:
-        return FINER_STEPS
-    ratio = scene.line_contact(abs(speed)).moes_film / sq
-    return next(steps for least, steps in FINER_STEPS_HEAVY if ratio >= least)
+def _solves_on(
+    scene: Scene, sample: Sample, coarsening: tuple[int, int], *, sq: float, speed: float
+) -> tuple[float, float]:
+    """Return the counted work [s] of a strip of roughness of ``sq`` [m] at rest on cells of the length ``coarsening``, in native ones,
+    and of one from a solution nearby."""
+    (dx, dy) = sample.cells.native_spacing
+    columns = sum(reach(scene.line_contact(abs(speed)), sq)) / (coarsening[0] * dx)
+    cells = columns * sample.strip_length / (coarsening[1] * dy)
+    steps = expected_steps(scene, sq, speed, columns)
+    return steps.work(cells, steps.first), steps.work(cells, steps.again)
 
 
 def _seconds_in_motion(
@@ -480,12 +456,12 @@ def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float, s
         (fx, fy) = patch_coarsening_to_look_at(scene, sample, solved)
         if (fx, fy) == solved:
             return 0.0
-        on_patch = expected_steps_of_patch(scene, sq, speed, around / (fx * dx))
+        on_patch = expected_steps(scene, sq, speed, around / (fx * dx))
         return AT_REST * on_patch.work(around / (fx * dx) * sample.strip_length / (fy * dy), on_patch.first)
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
     length = sample.length_of_piece(pictured_length(scene, sample))
     cells = around / (fx * dx) * length / (fy * dy)
-    steps = expected_steps(scene, sq, speed)
+    steps = expected_steps(scene, sq, speed, around / (fx * dx))
     return AT_REST * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
 
 
@@ -524,9 +500,7 @@ def work_on_long_cells(
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = _solved_ends(scene, surface, speed)
     is_patch = sample.refines_in_place
-    steps = (
-        expected_steps_of_patch(scene, sq, speed, length / (fx * dx)) if is_patch else expected_steps(scene, sq, speed)
-    )
+    steps = expected_steps(scene, sq, speed, length / (fx * dx))
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
     again = (OF_SLOPE + ends) * steps.work(cells, steps.again)
     return AT_REST_ON_LONG_CELLS * (strips + again) + (SECONDS_OF_PATCH if is_patch else 0.0)

@@ -101,5 +101,6 @@ def solved_ends_of_shear(scene: Scene, sq: float, speed: float, name: str) -> fl
     if name not in OF_FLOW:
         return 0.0
     expected = expected_friction(scene, sq, speed)
-    moved = expected.share * (1.0 - expected.share) * expected.contrast * abs(scene.motion.slide_roll_ratio)
+    ratio = abs(scene.motion.slide_roll_ratio)
+    moved = ratio * expected.contrast * expected.share * (1.0 - expected.share)
     return 2.0 * moved**2 / (moved**2 + HALF_OF_ENDS**2)
