@@ -612,27 +612,3 @@ def test_a_map_too_fine_for_its_picture_keeps_its_friction(monkeypatch):
     fine = lubfric.friction(scene, 0.01, fields="fine")
     assert fine.coefficient == plain.coefficient and np.array_equal(fine.pressure, plain.pressure)
     assert any("finer ones were not solved" in note for note in fine.report.notes)
-
-
-def test_an_old_name_raises_with_the_new_one(prepared):
-    with pytest.raises(AttributeError, match="called rough_contact now"):
-        _ = prepared.contact
-    with pytest.raises(AttributeError, match="has no attribute 'contacts'"):
-        _ = prepared.contacts
-    film = lubfric.solve_ehl(
-        load_per_width=1e5,
-        radius=0.01,
-        e_prime=2e11,
-        entrainment_speed=1.0,
-        viscosity=0.05,
-        viscosity_law="constant",
-        pressure_viscosity_coefficient=0.0,
-        tolerance=0.05,
-    )
-    with pytest.raises(AttributeError, match="called line now"):
-        _ = film.contact
-    with pytest.raises(AttributeError, match="called log_load_ratio now"):
-        _ = lubfric.friction(PAPER, 0.01, model="paper").balance.split
-    study = lubfric.study(PAPER, {}, [0.01])
-    with pytest.raises(AttributeError, match="called with_warnings now"):
-        _ = study.cautioned

@@ -58,9 +58,9 @@ class FieldsOnly:
 
 
 class Renamed:
-    """Base of results: an attribute that has another name today raises `AttributeError` with that name."""
+    """Base of results: an attribute that version 0.2.0 had under another name raises `AttributeError` with that of today."""
 
-    _RENAMED: ClassVar[dict[str, str]] = {}  # today's name by the old one
+    _RENAMED: ClassVar[dict[str, str]] = {}  # today's name by that of version 0.2.0
 
     if not TYPE_CHECKING:  # to a type checker, an old name is one that the class does not have
 

@@ -34,9 +34,6 @@ from ..quantities import (
 )
 from ..units import beside_interval, interval_in_words, with_interval
 
-# Today's names by the old ones.
-RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
-
 
 @dataclass(frozen=True, kw_only=True)
 class BudgetPart:
@@ -162,7 +159,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     largest_input: str = ""
     inputs_in_interval: tuple[str, ...] = ()
     cut: tuple[str, ...] = ()
-    _RENAMED = RENAMED
+    _RENAMED = {"spots": "effective_contacts", "few_spots": "has_few_contacts"}
 
     @property
     def budget(self) -> dict[str, float]:
@@ -316,7 +313,7 @@ class UncertaintyCurve(Renamed, UncertaintyQuantities[np.ndarray]):
     interval: np.ndarray
     model_sides: np.ndarray
     text: tuple[str, ...]
-    _RENAMED = RENAMED
+    _RENAMED = {"spots": "effective_contacts"}
 
 
 def curve_of(points: Sequence[Any]) -> UncertaintyCurve:

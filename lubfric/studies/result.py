@@ -35,7 +35,7 @@ from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
 COLUMNS_OF_ERRORS = (*UNCERTAINTY_COLUMNS, *INTERVAL_COLUMNS["power_loss"])
-# Names of columns by earlier ones, which a study still takes.
+# Names of columns by those of version 0.2.0, which a study still takes.
 OLD_COLUMNS = {f"uncertainty_{name}": column for name, column in COLUMN_OF_ERROR.items()} | {
     "uncertainty_low": "interval_low",
     "uncertainty_high": "interval_high",

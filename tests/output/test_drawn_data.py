@@ -791,7 +791,7 @@ def test_a_picture_of_a_contact_has_no_empty_band(tmp_path, solved, width):
 
 
 @pytest.mark.parametrize("renamed", [False, True])
-def test_a_record_of_version_1_0_0_is_read(tmp_path, renamed):
+def test_a_record_of_version_0_2_0_is_read(tmp_path, renamed):
     """Its violations have "remedy" in place of a recommendation, and none of the fields that came later; others are refused."""
     old = {"what": "film pressure", "value": 1.2, "limit": 1.0, "unit": "GPa", "consequence": "why", "severe": False}
     old |= {"advice" if renamed else "remedy": "less"}

@@ -46,7 +46,6 @@ class Decision(Renamed):
         "contact": "contact_in_words",
         "cells": "shape",
         "heat": "heat_in_words",
-        "rubbing": "contact_load_in_words",
     }
 
     @property
