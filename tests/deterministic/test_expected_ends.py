@@ -52,13 +52,14 @@ def test_each_stress_with_a_range_takes_two_further_solves_at_rest():
     assert estimated(two) - estimated(alone) == pytest.approx(2 * (estimated(one) - estimated(alone)))
 
 
-def test_ends_of_a_flow_law_are_solved_where_sliding_moves_load_between_film_and_asperities():
-    """None in pure rolling, in a film without asperities, or without film; some in between, where bodies slide."""
+def test_ends_of_a_flow_law_are_solved_where_sliding_thins_films_that_carry_load():
+    """None in pure rolling, or where asperities carry all of it; the more, the faster the bodies slide."""
 
     def added(ratio, speed):
         scene = MOVING.with_(motion={"slide_roll_ratio": ratio})
         return estimated(scene.with_(**OF_FLOW), speed) / estimated(scene, speed) - 1
 
     assert added(0.0, SPEED) == 0.0
-    assert added(1.0, 1e-5) < 0.01 > added(1.0, 0.1)
-    assert added(0.02, SPEED) < 0.01 and added(1.0, SPEED) > 0.1
+    assert added(1.0, 1e-5) < 0.01
+    assert 0.1 < added(1.0, SPEED) < added(1.0, 0.1)
+    assert added(0.02, SPEED) < 0.05

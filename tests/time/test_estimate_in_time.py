@@ -86,3 +86,9 @@ def test_a_run_by_load_sharing_is_estimated_with_the_strips_of_load_sharing():
     (run, alone) = (estimated(plan, by_auto.with_(numerics={"model": model})) for model in ("auto", "paper"))
     assert run.widest.strips == alone.widest.strips >= lubfric.prepare(by_auto).sample.first_strips > 1
     assert run.seconds == pytest.approx(alone.seconds)
+
+
+def test_a_run_is_estimated_without_the_ends_of_input_ranges_which_its_start_does_not_solve():
+    plan = Transient(0.01, outputs=4, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=100.0))
+    with_range = PATCH.with_(bodies={"hardness": [6e9, 5e9, 7e9]})
+    assert estimated(plan, with_range).start_seconds == estimated(plan).start_seconds > 0
