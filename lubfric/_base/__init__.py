@@ -1,12 +1,11 @@
-"""What every room uses: checks of input (`validate`), records, text tables, files, pictures (`figures`), a bracketed
-root."""
+"""What every room uses: checks of input (`validate`), records, text tables, files, pictures (`figures`), roots."""
 
 from .arrays import BoolArray, FloatArray, IntArray
 from .files import LOCK, FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
 from .host import with_default_errors
 from .memory import check_address_space, keep_freed_memory, releasing_memory, resident_memory
 from .records import FieldsOnly, FrozenArrays, Renamed, Shown, changed, share_read_only
-from .roots import Root, increasing_root
+from .roots import Root, increasing_root, secant_root
 from .tables import (
     name_and_unit,
     packaged,

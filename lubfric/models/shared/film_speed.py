@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from ..._base import secant_root
 from ...film import LineContact
 from ...scene import Scene
 
@@ -28,10 +29,9 @@ def film_and_exponents(line: LineContact) -> tuple[float, float, float]:
 
 
 def speed_of(scene: Scene, thickness: float) -> float:
-    """Return the speed [m/s] at which the expected film of the total load is ``thickness`` [m]."""
-    from scipy.optimize import newton
+    """Return the speed [m/s] at which the expected film of the total load is ``thickness`` [m]. Raises `ConvergenceError`."""
 
     def excess(log_speed: float) -> float:
         return math.log(scene.line_contact(math.exp(log_speed)).expected_film / thickness)
 
-    return math.exp(newton(excess, 0.0, tol=SPEED_ACCURACY))
+    return math.exp(secant_root(excess, 0.0, accuracy=SPEED_ACCURACY))
