@@ -35,8 +35,8 @@ class InputError(LubfricError, ValueError):
     """An input is outside its allowed range; raised before any work starts, or where numbers overflow.
 
     The message names the quantity, the value, the allowed range and the unit. The error has these as attributes:
-    ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and ``recommendation``,
-    which says what to do if there is no range.
+    ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and
+    ``recommendation``, which says what to do if there is no range.
     """
 
     def __init__(
@@ -104,7 +104,8 @@ class WorkLimitError(ConvergenceError):
 
 
 class TooCostlyError(ConvergenceError):
-    """The first steps in time of a strip forecast more counted work than "auto" gives a point. A cheaper model answers then."""
+    """The first steps in time of a strip forecast more counted work than "auto" gives a point. A cheaper model answers
+    then."""
 
 
 class ValidityError(LubfricError, ValueError):

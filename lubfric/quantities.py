@@ -19,14 +19,14 @@ T = TypeVar("T")  # float, or an array over operating points
 class Quantity(NamedTuple):
     """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
     none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know;
-    ``is_friction``: whether it is a part of the friction force, on the upper surface: positive against its sliding in steady
-    motion, and along -x in time.
+    ``is_friction``: whether it is a part of the friction force, on the upper surface: positive against its sliding in
+    steady motion, and along -x in time.
 
-    Of a number of a result, what changes it after its strips are solved, and where it is known: ``follows_asperity_load``: in
-    proportion to the asperity load of moving roughness; ``follows_sliding``: in proportion to the sliding part of f, where its
-    change by shorter cells is only expected; ``is_left_by_cells``: not changed by shorter cells, because it is an input, a
-    residual, made of small differences, or follows from others; ``is_controlled``: corrected by the control of a cheaper model;
-    ``is_in_time``: known in runs in time.
+    Of a number of a result, what changes it after its strips are solved, and where it is known:
+    ``follows_asperity_load``: in proportion to the asperity load of moving roughness; ``follows_sliding``: in
+    proportion to the sliding part of f, where its change by shorter cells is only expected; ``is_left_by_cells``: not
+    changed by shorter cells, because it is an input, a residual, made of small differences, or follows from others;
+    ``is_controlled``: corrected by the control of a cheaper model; ``is_in_time``: known in runs in time.
 
     Of the key of a scene (keys.toml): the ``least`` and the ``most`` that it may be, or ``above`` which it has to be;
     its ``usual`` range, whether 0 is usual too (``zero``), and the units that are mistaken for its own (``meant``).
@@ -58,8 +58,8 @@ class Quantity(NamedTuple):
 
 
 def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
-    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` and further fields of it,
-    ``default``."""
+    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` and further fields
+    of it, ``default``."""
     default = {"default": more.pop("default")} if "default" in more else {}
     return field(metadata={"quantity": Quantity(unit, label, symbol, **more)}, **default)
 
@@ -89,8 +89,8 @@ class Quantities(Generic[T]):
     contact_load: T = quantity(
         *("N", "load carried by the rough contact", "F_C"),
         error="sharing",
-        note="load where the shear stress is f_b p, including saturated films of a Newtonian oil; by load sharing alone the load of "
-        "the rough contact",
+        note="load where the shear stress is f_b p, including saturated films of a Newtonian oil; by load sharing "
+        "alone the load of the rough contact",
         follows_asperity_load=True,
         follows_sliding=True,
         is_controlled=True,
@@ -148,8 +148,8 @@ class Quantities(Generic[T]):
     real_contact_area: T = quantity(
         *("m2", "real contact area", "A_c"),
         error="area",
-        note="inside and outside the Hertz strip, over the length of the line contact: area where the shear stress is f_b p; by load "
-        "sharing alone that of the rough contact",
+        note="inside and outside the Hertz strip, over the length of the line contact: area where the shear stress is "
+        "f_b p; by load sharing alone that of the rough contact",
         follows_asperity_load=True,
         follows_sliding=True,
         is_in_time=False,
@@ -190,8 +190,8 @@ class Quantities(Generic[T]):
         "K",
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
-        note="mean across the film and along the line; by the deterministic model for one strip at one moment, so it scatters; "
-        "NaN where it was not computed",
+        note="mean across the film and along the line; by the deterministic model for one strip at one moment, so it "
+        "scatters; NaN where it was not computed",
     )
     power_loss: T = quantity(
         "W",
@@ -270,7 +270,8 @@ class PointQuantities(Quantities[T]):
     saturated_film_load: T = quantity(
         "N",
         "load on thicker films whose shear stress is at its limit",
-        note="limit of the oil, or f_b p for a Newtonian oil, whose asperity load includes this load; NaN by load sharing alone",
+        note="limit of the oil, or f_b p for a Newtonian oil, whose asperity load includes this load; NaN by load "
+        "sharing alone",
         is_in_time=False,
     )
 
@@ -422,8 +423,8 @@ def names_with(fact: str) -> tuple[str, ...]:
 
 
 def depending_on(error: str) -> tuple[str, ...]:
-    """Return the names of the quantities whose error depends on ``error``: "sharing" (the division of the load), "shear",
-    "area", "contacts", "film", "heat", or "all" of these."""
+    """Return the names of the quantities whose error depends on ``error``: "sharing" (the division of the load),
+    "shear", "area", "contacts", "film", "heat", or "all" of these."""
     return tuple(name for name, q in QUANTITIES.items() if q.error == error)
 
 

@@ -141,12 +141,12 @@ def worded(value: Any, unit: str) -> str:
 
 
 def with_interval(value: float, low: float, high: float, level: str = " at 95 %", unit: str = "-") -> str:
-    """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to 3.43 W
-    at 95 %)".
+    """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to
+    3.43 W at 95 %)".
 
-    All three have as many decimals as show two digits of half the width of the interval, or none, and one unit of people;
-    numbers without a unit that are all smaller than `SMALLEST_PLAIN` have a common power of ten. Without a finite interval
-    the value is alone, with three digits.
+    All three have as many decimals as show two digits of half the width of the interval, or none, and one unit of
+    people; numbers without a unit that are all smaller than `SMALLEST_PLAIN` have a common power of ten. Without a
+    finite interval the value is alone, with three digits.
     """
     head = beside_interval(value, low, high, unit)
     return f"{head} ({interval_in_words(low, high, unit, value)}{level})" if _is_interval(low, high) else head
@@ -158,8 +158,8 @@ def beside_interval(value: float, low: float, high: float, unit: str = "-") -> s
 
 
 def as_beside(part: float, value: float, low: float, high: float, unit: str) -> str:
-    """Return a ``part`` of a ``value`` with the unit and the decimals that `with_interval` shows of the value; a part smaller than half
-    the width of the interval, of which these may show no digit, as `plain_number`."""
+    """Return a ``part`` of a ``value`` with the unit and the decimals that `with_interval` shows of the value; a part
+    smaller than half the width of the interval, of which these may show no digit, as `plain_number`."""
     if not _is_interval(low, high):
         return plain_number(part, unit)
     if abs(part) < 0.5 * (high - low):
@@ -194,7 +194,8 @@ def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
 
 
 def in_unit_of(part: float, value: float, unit: str) -> str:
-    """Return a ``part`` of a ``value`` in the SI ``unit``, or its deviation, to two digits in the unit of people of the value."""
+    """Return a ``part`` of a ``value`` in the SI ``unit``, or its deviation, to two digits in the unit of people of the
+    value."""
     name = unit_for([value], unit)
     number = converted(part, unit, name) if name != unit else part
     return f"{plain_number(number, digits=2)} {printed(name)}".rstrip()
@@ -278,9 +279,9 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
 
 
 def check_all_have_units(name: str, values: Iterable[Any], units: Iterable[str]) -> None:
-    """Raise `InputError` where some of the ``values`` are text with a unit and others, of the same one of ``units``, are
-    plain numbers: ["1 mm/s", 5] may mean 5 mm/s or 5 m/s, and "1,5 mm/s", split at its comma, is 1 and 5 mm/s. A zero
-    needs no unit. What is in no unit of that row is not for this to refuse."""
+    """Raise `InputError` where some of the ``values`` are text with a unit and others, of the same one of ``units``,
+    are plain numbers: ["1 mm/s", 5] may mean 5 mm/s or 5 m/s, and "1,5 mm/s", split at its comma, is 1 and 5 mm/s. A
+    zero needs no unit. What is in no unit of that row is not for this to refuse."""
     bare: dict[str, str] = {}
     with_unit: dict[str, str] = {}
     for value, unit in zip(values, units):

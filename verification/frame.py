@@ -223,8 +223,8 @@ def put_tables(command: Command, outcome: Outcome, options: argparse.Namespace) 
 
 
 def put_pictures(command: Command, outcome: Outcome, docs: Path) -> None:
-    """Put the pictures of a study where the folder ``docs`` has one of that name, with the name of the command before it
-    or without."""
+    """Put the pictures of a study where the folder ``docs`` has one of that name, with the name of the command before
+    it or without."""
     for figure in outcome.figures:
         for stem in (f"{command.name}-{figure.name}", figure.name):
             file = docs / "images" / f"{stem}.{figure.format}"

@@ -48,7 +48,8 @@ class Run:
 
 
 def row_of(solve: Callable[[Case], PlainValue], file: Path | None, key: str, case: Case) -> PlainValue:
-    """Return ``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write too."""
+    """Return ``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write
+    too."""
     row = finite(solve(case))
     if file is not None:
         with file.open("ab", buffering=0) as stream:

@@ -18,8 +18,8 @@ REPEATS = 15  # of the transform, of which the median counts
 
 
 def paced(work: Callable[[], T], clock: Callable[[], float] = time.process_time) -> tuple[T, float]:
-    """Return what ``work()`` returns, and its processor seconds on the stated core. The core is timed before and after it;
-    ``clock`` returns the processor seconds until now, of this process where nothing else is given."""
+    """Return what ``work()`` returns, and its processor seconds on the stated core. The core is timed before and after
+    it; ``clock`` returns the processor seconds until now, of this process where nothing else is given."""
     before = _pair()
     begun = clock()
     result = work()

@@ -57,7 +57,8 @@ def panel(width: float, height: float) -> tuple[Canvas, Axes]:
 
 
 def panels(count: int, columns: int, width: float, height: float) -> tuple[Canvas, np.ndarray]:
-    """Return a figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
+    """Return a figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat
+    array."""
     columns = min(columns, count)
     rows = -(-count // columns)
     canvas, grid = axes(rows, columns, width, height * rows + 0.4, squeeze=False)
@@ -74,7 +75,8 @@ def chart(
     height: float = 3.8,
     **settings: Option,
 ) -> Figure:
-    """Return one panel of ``curves``, each (x, y, style, label) and perhaps the errors of y, with ``settings`` of its axes."""
+    """Return one panel of ``curves``, each (x, y, style, label) and perhaps the errors of y, with ``settings`` of its
+    axes."""
     canvas, ax = panel(width, height)
     for x, y, style, label, *errors in curves:
         ax.errorbar(x, y, yerr=errors[0] if errors else None, fmt=style, label=label)

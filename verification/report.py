@@ -133,7 +133,8 @@ def save_files(outcome: Outcome, out: Path) -> Outcome:
 
 
 def file_of(study: str, name: str, ending: str) -> str:
-    """Return the file of what a study calls ``name``. It is named after the study, unless it bears that name already."""
+    """Return the file of what a study calls ``name``. It is named after the study, unless it bears that name
+    already."""
     return f"{name}.{ending}" if name.startswith(study) else f"{study}_{name}.{ending}"
 
 
@@ -154,7 +155,8 @@ def save(report: Report, out: Path) -> Path:
 
 
 def terminal_table(report: Report) -> str:
-    """Return the checks as text, one line each, with the reason below those that failed or deviate. Of very many only these.
+    """Return the checks as text, one line each, with the reason below those that failed or deviate. Of very many only
+    these.
 
     Those that failed or deviate stand once more at the end, where a person looks first."""
     lines = []

@@ -89,7 +89,8 @@ def run(
         yield from each(partial(run_one, level=level, progress=progress, announce=announce), studies)
 
 
-# `Any` in `mapped`: what the function returns that is mapped. In `collected`: each list has items of the type of its key.
+# `Any` in `mapped`: what the function returns that is mapped. In `collected`: each list has items of the type of its
+# key.
 @contextmanager
 def mapped(workers: int) -> Iterator[Callable[..., Iterator[Any]]]:
     """``map`` in this process, or over fresh processes that end with it."""

@@ -85,7 +85,8 @@ def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
 
 
 def new_figure(*args: Any, layout: Any = "constrained", **kwargs: Any) -> Figure:
-    """Return a figure without a window, of the resolution in which it is saved: letters are of other widths in another one."""
+    """Return a figure without a window, of the resolution in which it is saved: letters are of other widths in another
+    one."""
     from matplotlib import rcParams
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -141,8 +142,8 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
 def friction_lines(
     axes: Axes, x: FloatArray, parts: Sequence[FloatArray], *, without: Container[str] = (), **style: Any
 ) -> None:
-    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``without``: the names
-    of those that are omitted; ``style``: of the first."""
+    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``without``:
+    the names of those that are omitted; ``style``: of the first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, ASPERITY_FRICTION), (film, GREEN, FLUID_FRICTION)):
@@ -153,7 +154,8 @@ def friction_lines(
 
 
 def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:
-    """Return ``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows nothing."""
+    """Return ``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows
+    nothing."""
     return (x, *values) if np.size(x) != 1 else (np.multiply(x, (0.97, 1.03)), *(np.repeat(v, 2) for v in values))
 
 
@@ -181,8 +183,8 @@ def plain_ticks(axis: Axis) -> None:
 
 
 def log_if_wide(axes: Axes, name: str, values: np.ndarray) -> None:
-    """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20, or are
-    spaced geometrically, and not in equal steps."""
+    """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20, or
+    are spaced geometrically, and not in equal steps."""
     if values.min() > 0 and (values.max() > 20 * values.min() or is_geometric(values)) and not has_equal_steps(values):
         axes.set(**{f"{name}scale": "log"})
 
@@ -194,8 +196,8 @@ def has_equal_steps(values: np.ndarray) -> bool:
 
 
 def is_geometric(values: np.ndarray) -> bool:
-    """Return whether positive ``values`` are spaced, or scattered, more evenly by their logarithms than by themselves, over
-    a factor of `GEOMETRIC` at least."""
+    """Return whether positive ``values`` are spaced, or scattered, more evenly by their logarithms than by themselves,
+    over a factor of `GEOMETRIC` at least."""
     different = np.unique(values)
     if different.size < 3 or not different[-1] >= GEOMETRIC * different[0] > 0:
         return False
@@ -244,8 +246,8 @@ def _excess(legend: Any, axes: Axes) -> float:
 
 
 def fit_labels(figure: Figure) -> None:
-    """Break the labels of the axes of ``figure`` into lines that are no longer than the axes that they belong to, or than
-    there is room about these where nothing else is beside them."""
+    """Break the labels of the axes of ``figure`` into lines that are no longer than the axes that they belong to, or
+    than there is room about these where nothing else is beside them."""
     for _ in range(FIT_ROUNDS):
         figure.draw_without_rendering()
         whole = figure.bbox
@@ -259,7 +261,8 @@ def fit_labels(figure: Figure) -> None:
 
 
 def heighten(figure: Figure, least: float) -> None:
-    """Make ``figure`` so high that none of its axes is lower than ``least`` [inch] where long labels take its height."""
+    """Make ``figure`` so high that none of its axes is lower than ``least`` [inch] where long labels take its
+    height."""
     figure.draw_without_rendering()
     shown = [axes for axes in figure.axes if axes.get_visible() and axes.get_subplotspec() is not None]
     lowest = min(axes.get_window_extent().height for axes in shown) / figure.dpi
@@ -268,7 +271,8 @@ def heighten(figure: Figure, least: float) -> None:
         figure.set_figheight(figure.get_figheight() + rows * (least - lowest))
 
 
-# Empty band at the edge of a figure that stays, and the least that is cut off [inch]. Choices, by looking at the figures.
+# Empty band at the edge of a figure that stays, and the least that is cut off [inch]. Choices, by looking at the
+# figures.
 EDGE = 0.04
 LEAST_CUT = 0.05
 CUT_ROUNDS = 2  # times that a height is cut: the layout follows each cut
@@ -318,8 +322,8 @@ ABOVE_MAP = 0.08
 
 
 class _AlongMap:
-    """Where a bar of colours is drawn: beside its map and as high, or above it and as wide. A map that is to scale is smaller
-    than its place in the figure."""
+    """Where a bar of colours is drawn: beside its map and as high, or above it and as wide. A map that is to scale is
+    smaller than its place in the figure."""
 
     def __init__(self, axes: Axes, bar: Axes, *, is_above: bool):
         self.axes = axes
@@ -349,8 +353,8 @@ class _AlongMap:
 
 
 def _ticks_to_the_end(image: AxesImage, bar: Any) -> None:
-    """Give a short ``bar`` of colours three to five ticks: of numbers from the first to the last of them, of powers of ten all in
-    its range."""
+    """Give a short ``bar`` of colours three to five ticks: of numbers from the first to the last of them, of powers of
+    ten all in its range."""
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import LogLocator, MaxNLocator
 
@@ -375,8 +379,8 @@ def field_image(
     place: Literal["right", "top"] = "right",
     **options: Any,
 ) -> AxesImage:
-    """Draw ``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours at ``place``; returns the image.
-    To scale, unless it would be too slender; then the axis says so."""
+    """Draw ``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours at ``place``;
+    returns the image. To scale, unless it would be too slender; then the axis says so."""
     from matplotlib.colors import LogNorm
 
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))

@@ -125,7 +125,8 @@ def clear_parts(folder: Path) -> None:
 
 
 def is_checked(path: Path) -> bool:
-    """Return whether `write_checked` wrote ``path`` and nobody changed it since. A link to such a file does not count."""
+    """Return whether `write_checked` wrote ``path`` and nobody changed it since. A link to such a file does not
+    count."""
     return path.is_file() and not path.is_symlink() and read_checked(path) is not None
 
 

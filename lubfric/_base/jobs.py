@@ -39,8 +39,8 @@ def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any)
     """Return ``function(*arguments, part)`` of all ``parts``, in their order.
 
     Work is counted as of parts that are done one after the other (`lubfric._base.work`), so that a limit ends the same
-    part. Function, arguments and results must pickle where an executor does it. An exception is that of the first part, in
-    their order, that raises one. What a lost process had is done here.
+    part. Function, arguments and results must pickle where an executor does it. An exception is that of the first part,
+    in their order, that raises one. What a lost process had is done here.
     """
     executor = current_executor()
     jobs = [partial(function, *arguments, part) for part in parts]
@@ -74,7 +74,8 @@ def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any)
 
 
 def _counted(job: Callable[[], T], limit: float) -> tuple[T | Exception, float, ProcessorTime]:
-    """Return the result of a part, or what it raised; its counted work [s], which ends at ``limit``; its processor time."""
+    """Return the result of a part, or what it raised; its counted work [s], which ends at ``limit``; its processor
+    time."""
     result: T | Exception
     with unlimited_work(), limited_work(limit) as meter, reported_time() as spent:
         try:

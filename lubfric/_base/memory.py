@@ -1,11 +1,11 @@
 """Memory that was freed is kept for the next step of a solver, and goes back to the system after a point.
 
-glibc by itself gives the end of its heap back as soon as some 128 kB of it are free. The fields of a Newton step are freed at
-once and come back page by page at the next one, which took a fifth of the processor time of a rolling contact.
+glibc by itself gives the end of its heap back as soon as some 128 kB of it are free. The fields of a Newton step are
+freed at once and come back page by page at the next one, which took a fifth of the processor time of a rolling contact.
 `keep_freed_memory` stops that.
 
-It also keeps freed blocks inside the heap: after 45 points of varied scenes a process stood at 950 MB, of which 80 MB were in
-use. `release_freed_memory` returns them after a point, where they have become many.
+It also keeps freed blocks inside the heap: after 45 points of varied scenes a process stood at 950 MB, of which 80 MB
+were in use. `release_freed_memory` returns them after a point, where they have become many.
 """
 
 import ctypes

@@ -1,5 +1,5 @@
-"""The processor time of a command with the processes that work for it. Each one reports its own with what it returns, so that it
-is known while they live, wherever they run and however they were started."""
+"""The processor time of a command with the processes that work for it. Each one reports its own with what it returns,
+so that it is known while they live, wherever they run and however they were started."""
 
 import os
 import time
@@ -30,8 +30,8 @@ _received: dict[int, float] = {}
 
 @contextmanager
 def reported_time() -> Iterator[ProcessorTime]:
-    """Yield what has the processor time of this process since its last report, or since the block began, when it has ended:
-    jobs on several threads of one process report each second once."""
+    """Yield what has the processor time of this process since its last report, or since the block began, when it has
+    ended: jobs on several threads of one process report each second once."""
     process = os.getpid()
     _reported.setdefault(process, time.process_time())
     report = ProcessorTime(process)

@@ -11,8 +11,8 @@ _report: ContextVar[Report | None] = ContextVar("what is called with the progres
 
 @contextmanager
 def progress_to(report: Report) -> Iterator[None]:
-    """Call ``report(what, done, total)`` after every step that computations inside the block report. The processes of an
-    executor report nothing."""
+    """Call ``report(what, done, total)`` after every step that computations inside the block report. The processes of
+    an executor report nothing."""
     token = _report.set(report)
     try:
         yield

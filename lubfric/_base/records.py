@@ -58,7 +58,8 @@ class FieldsOnly:
 
 
 class Renamed:
-    """Base of results: an attribute that version 0.2.0 had under another name raises `AttributeError` with that of today."""
+    """Base of results: an attribute that version 0.2.0 had under another name raises `AttributeError` with that of
+    today."""
 
     _RENAMED: ClassVar[dict[str, str]] = {}  # today's name by that of version 0.2.0
 

@@ -52,8 +52,8 @@ def increasing_root(
     doi:10.1016/S0965-9978(96)00051-8.
 
     ``scipy.optimize.elementwise.bracket_root`` and ``find_root``, the same method, know neither the value nor the slope
-    at the guess, and bracket before they look at the tolerance: for 18 balances of the scene "paper" they solve film and
-    contact 108 times, this one 34 times.
+    at the guess, and bracket before they look at the tolerance: for 18 balances of the scene "paper" they solve film
+    and contact 108 times, this one 34 times.
     """
     search = _Search(f, tolerance, max_evaluations, first[1])
     if (value := first[0]) is not None:

@@ -258,8 +258,8 @@ def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
                 apart = unit == "%" or not (before.isascii() and before.isalnum())
                 if unit and factor != 1.0 and text.endswith(spelling) and apart:
                     raise InputError(
-                        f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; put "
-                        f"the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
+                        f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; "
+                        f"put the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
                     )
 
 

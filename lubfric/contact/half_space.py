@@ -117,8 +117,8 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         )
 
     def _start_from(self, state: ContactState | None) -> ContactStart | np.ndarray | None:
-        """Return the pressure of ``state``, if any, on these cells, with its displacement where the operator is the same;
-        on other cells, its pressure taken from the nearest of its own."""
+        """Return the pressure of ``state``, if any, on these cells, with its displacement where the operator is the
+        same; on other cells, its pressure taken from the nearest of its own."""
         if state is None or state.fields is None:
             return None
         pressure = state.fields.pressure

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-# Argument of K0 [-] beyond which it is below 1e-19. Chosen, as the next two, for the rounding error of double precision.
+# Argument of K0 [-] beyond which it is below 1e-19. Chosen, as the next two, for the rounding error of double
+# precision.
 VANISHING_ARGUMENT = 42.0
 # Step of the trapezoidal rule for the tail of ∫ K0: its error is below 1e-16. Chosen for rounding.
 TAIL_STEP = 0.26

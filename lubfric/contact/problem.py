@@ -147,8 +147,8 @@ def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndar
 
 @dataclass(frozen=True, kw_only=True)
 class ContactStart:
-    """The ``pressure`` [Pa] (nx, ny) that a solve starts from, and its ``displacement`` [m] by the operator of the solve,
-    where that is known."""
+    """The ``pressure`` [Pa] (nx, ny) that a solve starts from, and its ``displacement`` [m] by the operator of the
+    solve, where that is known."""
 
     pressure: np.ndarray
     displacement: np.ndarray | None = None

@@ -1,7 +1,8 @@
 """What every rough contact under a film must offer: all that you need to know to write one.
 
-`RoughContact` is the contract. `x`, `weight`, `name` and `close` have to be written; the rest has defaults. `lubfric.prepare` takes one from
-outside (``contact``), and the balance needs nothing else. Means are taken over the area A of Eq. (8), by weights.
+`RoughContact` is the contract. `x`, `weight`, `name` and `close` have to be written; the rest has defaults.
+`lubfric.prepare` takes one from outside (``contact``), and the balance needs nothing else. Means are taken over the
+area A of Eq. (8), by weights.
 """
 
 from __future__ import annotations

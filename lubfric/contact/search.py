@@ -66,8 +66,8 @@ class CandidateSearch:
     one value for each cell:
 
     - ``lower``, ``upper``: smallest and largest allowed change of the pressure (to zero, and to the hardness).
-    - ``change``: the change of the pressure so far; ``known``: the part of it that is convolved already; ``gap``: the gap
-      under the known part.
+    - ``change``: the change of the pressure so far; ``known``: the part of it that is convolved already; ``gap``: the
+      gap under the known part.
     - ``weight``: 1 on free cells, else 0; ``residue``: the gap above its zero level on free cells; ``before``: the
       residue from which ``direction``, the direction of the step, was made.
     - ``trial``: the change of the pressure at which the next step aims.

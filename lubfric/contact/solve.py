@@ -138,8 +138,8 @@ def _evaluated(problem: ContactProblem, pressure: FloatArray, approach: float | 
 
 def _scaling(problem: ContactProblem, start: ContactStart, load: float | None) -> float | None:
     """Return the factor on the pressure of ``start``, and on its displacement, which is proportional to it, at which it
-    carries ``load`` [Pa cells]. None where the load differs by more than `LARGEST_SCALING`, or where a cell has yielded or
-    would, as its pressure stays."""
+    carries ``load`` [Pa cells]. None where the load differs by more than `LARGEST_SCALING`, or where a cell has yielded
+    or would, as its pressure stays."""
     factor = 1.0 if load is None else load / float(start.pressure.sum())
     highest = max(1.0, factor) * float(start.pressure.max())
     can_be_scaled = factor == 1.0 or (abs(factor - 1.0) <= LARGEST_SCALING and highest < problem.hardness)

@@ -2,8 +2,8 @@
 
 A cell that bears the pressure p over a sliding distance s loses the depth K p s/H (J. F. Archard, J. Appl. Phys. 24
 (1953) 981-988, doi:10.1063/1.1721448: V = K F s/H). The loss changes the pressure, and a step that takes the pressure
-from its beginning is stable only for steps in which the shortest wave of the grid loses less than it deflects. So a step
-takes the pressure from its end: gap and pressure are those of a half-space with a layer that sinks by (K s/H) p
+from its beginning is stable only for steps in which the shortest wave of the grid loses less than it deflects. So a
+step takes the pressure from its end: gap and pressure are those of a half-space with a layer that sinks by (K s/H) p
 (`HalfSpace.with_layer`), the implicit Euler method, stable for any step.
 
 A surface that moves passes through the contact. `Passage` lays windows of the map, each as long as the contact, one

@@ -67,8 +67,8 @@ def rolling_resistance(problem: FilmProblem, on_grids: list[FilmSolution]) -> tu
     dx/R. The direct sum of h dp is a small difference at high pressure, and takes ten times as many cells for the same
     error.
 
-    It is extrapolated to second order from the last two of the solutions ``on_grids``, ever finer ones. The error is the
-    step of the extrapolation, or a quarter of the one before if that is larger.
+    It is extrapolated to second order from the last two of the solutions ``on_grids``, ever finer ones. The error is
+    the step of the extrapolation, or a quarter of the one before if that is larger.
     """
     unit = problem.pressure_unit * problem.film_unit
     works = [unit * _half_work(solution) for solution in on_grids[-3:]]

@@ -113,8 +113,8 @@ class EHLResult(Renamed, Shown, HasLineContact):
 def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Return the piecewise cubic Lagrange interpolation of ``values`` on four neighbouring ``nodes`` each at ``x``.
 
-    ``scipy.interpolate.CubicSpline`` takes 0.11 ms where this takes 0.03 ms (121 nodes). Both are far more accurate than
-    the film: 1e-6 and 3e-6 of it, from every second node of a film of the scene "paper".
+    ``scipy.interpolate.CubicSpline`` takes 0.11 ms where this takes 0.03 ms (121 nodes). Both are far more accurate
+    than the film: 1e-6 and 3e-6 of it, from every second node of a film of the scene "paper".
     """
     first = np.clip(np.searchsorted(nodes, x) - 2, 0, nodes.size - 4)
     a, b, c, d = (nodes[first + k] for k in range(4))

@@ -12,8 +12,8 @@ gives the traction of a dry line contact at vanishing creep ξ = Δu/U, Q = (π/
 Soc. Lond. A 112 (1926) 151-157, doi:10.1098/rspa.1926.0100). Asperities stick until they bear f_b times their pressure,
 and slide then.
 
-The left side is the slip s between the surfaces. The equation is stepped downstream, node by node, by the implicit Euler
-method: both sides are explicit in τ, and rise with it, so that each step is one root.
+The left side is the slip s between the surfaces. The equation is stepped downstream, node by node, by the implicit
+Euler method: both sides are explicit in τ, and rise with it, so that each step is one root.
 """
 
 from __future__ import annotations

@@ -55,8 +55,8 @@ def moes_film(m: float, l: float) -> float:
 
 def smallest_film(film: float, length: float, half_width: float) -> float:
     """Return the smallest film about a contact whose ``film`` is known where dp/dx = 0. ``length``: l = √(2 R h),
-    ``half_width``: b of the dry contact. ``h (1 - 0.184 l/(l + b))``: that of a rigid cylinder for a narrow contact, and h for
-    a wide one."""
+    ``half_width``: b of the dry contact. ``h (1 - 0.184 l/(l + b))``: that of a rigid cylinder for a narrow contact,
+    and h for a wide one."""
     return film * (1.0 - REYNOLDS_THINNING * length / (length + half_width))
 
 
@@ -73,13 +73,13 @@ def thinned_share(number: float, exponent: float, slide_roll_ratio: float) -> fl
 
 
 def starved_share(inlet: float, length: float, half_width: float) -> float:
-    """Return the film (where dp/dx = 0) of a contact over the flooded one where its lubricant begins ``inlet`` upstream of
-    the centre. ``length``: l = √(2 R h_flooded), ``half_width``: b of the dry contact.
+    """Return the film (where dp/dx = 0) of a contact over the flooded one where its lubricant begins ``inlet`` upstream
+    of the centre. ``length``: l = √(2 R h_flooded), ``half_width``: b of the dry contact.
 
-    ``1 - (1 + x/c)^-n`` with x = (inlet - (1 - t) b)/s, s of `flooded_inlet`, t = 1/(1 + (b/(0.085 l))²), n = 2 + 6 t and
-    c = 0.333 + 6 t: t is 1 for a narrow contact, whose film begins to carry at its centre, and 0 for a wide one. A fit to
-    185 own solutions at b/l = 0.004 to 24, L = 0.8 to 23 and (inlet - b)/s = 0.1 to 2: within 0.06 where b < 0.15 l, and
-    within 0.1 elsewhere, but up to 0.18 below where L < 1.
+    ``1 - (1 + x/c)^-n`` with x = (inlet - (1 - t) b)/s, s of `flooded_inlet`, t = 1/(1 + (b/(0.085 l))²), n = 2 + 6 t
+    and c = 0.333 + 6 t: t is 1 for a narrow contact, whose film begins to carry at its centre, and 0 for a wide one. A
+    fit to 185 own solutions at b/l = 0.004 to 24, L = 0.8 to 23 and (inlet - b)/s = 0.1 to 2: within 0.06 where b <
+    0.15 l, and within 0.1 elsewhere, but up to 0.18 below where L < 1.
     """
     narrow = _narrowness(length, half_width)
     x = max(inlet - (1.0 - narrow) * half_width, 0.0) / flooded_inlet(length, half_width)

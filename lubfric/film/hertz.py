@@ -143,12 +143,13 @@ class LineContact:
     @cached_property
     def expected_film(self) -> float:
         """Return `moes_film` [m], as much thinner as shear and a starved inlet make it with closed forms; a rough
-        guess. Shear thins it where the law of the flow is a power law at large rates (`ShearLaw.power_law_exponent`)."""
+        guess. Shear thins it where the law of the flow is a power law at large rates
+        (`ShearLaw.power_law_exponent`)."""
         return self.expected_film_with(1.0)
 
     def expected_film_with(self, inlet_factor: float) -> float:
-        """Return `expected_film` [m] where the heat of the inlet multiplies what flows in by ``inlet_factor`` [-]. A given film
-        that arrives (``inlet_film``) limits it, however warm the inlet is."""
+        """Return `expected_film` [m] where the heat of the inlet multiplies what flows in by ``inlet_factor`` [-]. A
+        given film that arrives (``inlet_film``) limits it, however warm the inlet is."""
         film = self.moes_film
         oil = self.lubricant
         law = oil.flow_law

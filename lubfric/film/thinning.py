@@ -1,8 +1,8 @@
 """The flow of a film that shear makes thinner: of a generalised Newtonian fluid, driven by sliding and by pressure.
 
 Across a film of thickness h the shear stress is linear, tau(z) = tau_m + z dp/dx, and the rate of shear follows from it
-by the fluid's law. Two conditions determine it: the rates add up to the sliding Δu, and their first moment is the pressure
-flow. With the critical stress tau_c of the law (Eyring's, or Carreau's G), s = eta |Δu|/(h tau_c) and b = h
+by the fluid's law. Two conditions determine it: the rates add up to the sliding Δu, and their first moment is the
+pressure flow. With the critical stress tau_c of the law (Eyring's, or Carreau's G), s = eta |Δu|/(h tau_c) and b = h
 |dp/dx|/(2 tau_c), the pressure flow is Φ(s, b) times the Newtonian one, -rho h³/(12 eta) dp/dx:
 
     s = mean of r(a + b t),   Φ = 3/b times the mean of t r(a + b t),   -1 < t < 1

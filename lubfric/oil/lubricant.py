@@ -161,8 +161,8 @@ class Lubricant(Renamed, Shown):
 
     @property
     def has_unlimited_stress(self) -> bool:
-        """Return True where the shear stress grows with the shear rate without end: of a Newtonian oil, and where every shear law
-        is a power at large rates."""
+        """Return True where the shear stress grows with the shear rate without end: of a Newtonian oil, and where every
+        shear law is a power at large rates."""
         return all(law.is_power_law for law in self.shear_laws)
 
     @property

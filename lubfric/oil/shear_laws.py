@@ -25,11 +25,11 @@ NEWTONIAN_S = 1e-6
 
 class ShearLaw:
     """How shear thins the lubricant ``oil`` (`lubfric.Lubricant`), which has the ``key`` of the law; ``others``: keys
-    in addition to it. ``cited_as``, ``heat_cited_as``: the names under which `lubfric.estimate` cites (papers.toml) the law,
-    and its `warmth`; "": not at all; ``is_cited_without_sliding``: whether that source is about more than the friction of a
-    film that is sheared. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
-    the same at any pressure. ``is_power_law``: whether f is a power of s at large s, so that the stress grows without end.
-    ``is_calibrated``: whether the solved cases of the quick model have such oils."""
+    in addition to it. ``cited_as``, ``heat_cited_as``: the names under which `lubfric.estimate` cites (papers.toml) the
+    law, and its `warmth`; "": not at all; ``is_cited_without_sliding``: whether that source is about more than the
+    friction of a film that is sheared. ``thins``: whether the flow of the smooth film thins by it as well; for that
+    tau_c has to be the same at any pressure. ``is_power_law``: whether f is a power of s at large s, so that the stress
+    grows without end. ``is_calibrated``: whether the solved cases of the quick model have such oils."""
 
     key = ""
     cited_as = ""
@@ -42,8 +42,8 @@ class ShearLaw:
 
     @property
     def power_law_exponent(self) -> float | None:
-        """The exponent n of f ~ s^n at large s, by which closed forms estimate how shear thins a smooth film; None: f grows
-        like no power, and they leave its film as it is."""
+        """The exponent n of f ~ s^n at large s, by which closed forms estimate how shear thins a smooth film; None: f
+        grows like no power, and they leave its film as it is."""
         return None
 
     def __init__(self, oil: Any):

@@ -33,7 +33,8 @@ def checked_temperature(temperature: float, name: str = "temperature") -> float:
     except InputError as error:
         if isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]:
             error.hint(
-                f"{name} = {temperature:g} is read as {temperature:g} K; did you mean {temperature:g} °C ({temperature + CELSIUS:g} K)?",
+                f"{name} = {temperature:g} is read as {temperature:g} K; did you mean {temperature:g} °C "
+                f"({temperature + CELSIUS:g} K)?",
                 asks=True,
             )
         raise
@@ -60,8 +61,8 @@ class Walther:
 
 
 def walther(first: tuple[float, float], second: tuple[float, float], **given_keys: float | str) -> Walther:
-    """Return `Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``given_keys``:
-    the keys of [lubricant] that the pairs follow from."""
+    """Return `Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises.
+    ``given_keys``: the keys of [lubricant] that the pairs follow from."""
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
     if not warm > cold:

@@ -1,5 +1,5 @@
-"""Which combination of design has the lowest friction at each operating condition of a study, in sentences and as a table of
-report.html."""
+"""Which combination of design has the lowest friction at each operating condition of a study, in sentences and as a
+table of report.html."""
 
 from __future__ import annotations
 
@@ -33,12 +33,14 @@ MOST_CONDITIONS = 200
 GIVEN_SPEEDS = ("u1", "u2")
 
 RULE = (
-    "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an operating point. "
-    "All other varied keys are design, except seeds and keys of [numerics] and [contact]. Two points cannot be distinguished if they "
-    "differ by less than the error of their difference, or if an interval is not known. Numerical and sampling errors "
-    "count as independent, and so do model-form errors, except those of the quick model and of the load-sharing model in designs that differ "
-    "by the size of the roughness, radius, viscosity or boundary friction alone: these are correlated, as pairs of solved contacts show. Ranges of inputs that all designs share, as these are not varied, are left out but for the difference of "
-    "what they change in both points. The interval of f contains them, so intervals of points that can be distinguished may overlap."
+    "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an "
+    "operating point. All other varied keys are design, except seeds and keys of [numerics] and [contact]. Two points "
+    "cannot be distinguished if they differ by less than the error of their difference, or if an interval is not "
+    "known. Numerical and sampling errors count as independent, and so do model-form errors, except those of the "
+    "quick model and of the load-sharing model in designs that differ by the size of the roughness, radius, viscosity "
+    "or boundary friction alone: these are correlated, as pairs of solved contacts show. Ranges of inputs that all "
+    "designs share, as these are not varied, are left out but for the difference of what they change in both points. "
+    "The interval of f contains them, so intervals of points that can be distinguished may overlap."
 )
 
 
@@ -68,8 +70,9 @@ def has_designs(result: StudyResult) -> bool:
 
 
 def best_lines(result: StudyResult) -> list[str]:
-    """Return in sentences which combinations of design have the lowest f at the operating conditions, of which the report has a table,
-    and which has the lowest mean: of f, or of operating points of the power loss; none where no designs are compared."""
+    """Return in sentences which combinations of design have the lowest f at the operating conditions, of which the
+    report has a table, and which has the lowest mean: of f, or of operating points of the power loss; none where no
+    designs are compared."""
     if not has_designs(result):
         return []
     best_ones = best(result)
@@ -78,7 +81,8 @@ def best_lines(result: StudyResult) -> list[str]:
         (one,) = best_ones
         place = f"At {condition_in_words(one.condition)}, f" if operating_keys(result.plan) else "f"
         lines.append(
-            f"{place} is lowest with {values_in_words(one.design)} (point {one.row}): {_number(one, '-')}. {_comparison(one)}"
+            f"{place} is lowest with {values_in_words(one.design)} (point {one.row}): {_number(one, '-')}. "
+            f"{_comparison(one)}"
         )
     elif best_ones:
         lines.append(_summary(best_ones))
@@ -119,8 +123,8 @@ def _comparison(one: BestDesign) -> str:
 
 
 def _summary(best_ones: tuple[BestDesign, ...]) -> str:
-    """Return in a sentence or two which combinations are the best of several operating conditions: one of all, or how often each
-    one, and what they have in common."""
+    """Return in a sentence or two which combinations are the best of several operating conditions: one of all, or how
+    often each one, and what they have in common."""
     counts = Counter(values_in_words(one.design) for one in best_ones)
     conditions = f"{len(best_ones)} operating conditions"
     if len(counts) == 1:
@@ -142,8 +146,8 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
 
 
 def best_table(result: StudyResult) -> str:
-    """Return the part of a report that has the best combination of each operating condition; "" where no designs are compared or
-    there is one condition."""
+    """Return the part of a report that has the best combination of each operating condition; "" where no designs are
+    compared or there is one condition."""
     best_ones = best(result) if has_designs(result) else ()
     if not best_ones or not operating_keys(result.plan):
         return ""

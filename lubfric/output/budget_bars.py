@@ -10,7 +10,8 @@ from ..quantities import COLUMNS
 from ..time import TransientResult
 from .markup import bullets
 
-# Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
+# Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it
+# (`budget_labels`).
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
@@ -23,8 +24,8 @@ def names_of_inputs(keys: Iterable[str]) -> str:
 
 
 def budget_labels(points: Sequence[FrictionResult], parts: dict[str, str] = BUDGET) -> dict[str, str]:
-    """Return what the ``parts`` of the uncertainty budget of ``points`` are called; inputs that the scene does not give by
-    their labels, and no such part where all are given."""
+    """Return what the ``parts`` of the uncertainty budget of ``points`` are called; inputs that the scene does not give
+    by their labels, and no such part where all are given."""
     missing = [known.missing_input for known in (point.uncertainty for point in points) if known.not_given]
     labels = {name: text.format(names_of_inputs(missing)) for name, text in parts.items()}
     return {name: text for name, text in labels.items() if name != "not given" or missing}
@@ -46,8 +47,8 @@ def history_budget(result: TransientResult) -> str:
     values = {name: max(below, above) for name, (below, above) in sides.items()}
     words = {name: percent_of_sides(both, values[name]) for name, both in sides.items()}
     notes = [
-        "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at most "
-        "transient.tolerance, is not included",
+        "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at "
+        "most transient.tolerance, is not included",
         "The errors keep their sign at all times, so the interval of a mean is the mean of the intervals",
         *result.not_in,
     ]
@@ -65,8 +66,9 @@ def _budget(
     *,
     is_cut: bool = False,
 ) -> str:
-    """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
-    to f; ``words``: the parts as text; ``labels``: what each is called; ``is_cut``: whether ``notes`` have a limit of the interval."""
+    """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts,
+    relative to f; ``words``: the parts as text; ``labels``: what each is called; ``is_cut``: whether ``notes`` have a
+    limit of the interval."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
     shown = {name: label for name, label in labels.items() if name in values}
     rows = "".join(

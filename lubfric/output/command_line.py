@@ -27,8 +27,8 @@ FOR = {"ratios": (OF_TRACTION,), "animation": (OF_RUNS_IN_TIME,), "workers": (OF
 
 
 def _path(text: str) -> Path:
-    """Return the path that an argument names, with the home directory for a "~". An empty name is refused: it would be the
-    current folder."""
+    """Return the path that an argument names, with the home directory for a "~". An empty name is refused: it would be
+    the current folder."""
     if not text.strip():
         raise argparse.ArgumentTypeError(
             "the name is empty; give the name of a file or folder ('.': the current folder)"
@@ -132,8 +132,8 @@ def run(arguments: Namespace) -> None:
 
 
 def _take_options_of_file(arguments: Namespace) -> None:
-    """Give ``arguments`` the options that the scene file holds, as resolved.toml of a traction run does, unless the command
-    has one of these itself. A line on stderr says so."""
+    """Give ``arguments`` the options that the scene file holds, as resolved.toml of a traction run does, unless the
+    command has one of these itself. A line on stderr says so."""
     from ..scene import options_of
 
     options = options_of(arguments.scene)

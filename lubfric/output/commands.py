@@ -74,8 +74,8 @@ HANGING_INDENT = 4  # blanks before the continuation of a line, more than before
 
 
 def wrapped(text: str, stream: Any) -> str:
-    """Return ``text`` with its lines broken between words to the width of ``stream``: $COLUMNS, or that of the terminal, or
-    `CONSOLE_WIDTH` where it is none. Continued lines are indented further."""
+    """Return ``text`` with its lines broken between words to the width of ``stream``: $COLUMNS, or that of the
+    terminal, or `CONSOLE_WIDTH` where it is none. Continued lines are indented further."""
     width = max(LEAST_CONSOLE_WIDTH, _width_of(stream))
     lines = []
     for line in text.split("\n"):
@@ -119,8 +119,8 @@ def put(stream: Any, text: str) -> None:
 
 
 def answer(text: str) -> None:
-    """Write the answer of a command to stdout, `wrapped`. Raise `OutputError` where it cannot be written, as on a full disk;
-    a pipe that nobody reads any more is no error."""
+    """Write the answer of a command to stdout, `wrapped`. Raise `OutputError` where it cannot be written, as on a full
+    disk; a pipe that nobody reads any more is no error."""
     try:
         sys.stdout.write(printable(wrapped(text, sys.stdout), getattr(sys.stdout, "encoding", None)))
         sys.stdout.flush()
@@ -132,8 +132,8 @@ def answer(text: str) -> None:
 
 
 def printable(text: str, encoding: str | None) -> str:
-    """Return ``text`` with control characters, signs that change the direction of writing, and what ``encoding`` does not
-    have as escapes: the name of a scene moves no cursor and hides no line."""
+    """Return ``text`` with control characters, signs that change the direction of writing, and what ``encoding`` does
+    not have as escapes: the name of a scene moves no cursor and hides no line."""
     shown = "".join(c if c in "\n\t" or not _CONTROL.match(c) else c.encode("unicode_escape").decode() for c in text)
     code = encoding or "utf-8"
     return shown.encode(code, "backslashreplace").decode(code)
@@ -155,8 +155,8 @@ def paced() -> Callable[..., bool]:
 
 
 def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
-    """Return what reports how far a point is, and the time left for this part of it: on the line of progress of a terminal,
-    else in a line every ``interval`` [s] at most."""
+    """Return what reports how far a point is, and the time left for this part of it: on the line of progress of a
+    terminal, else in a line every ``interval`` [s] at most."""
     begun = time.monotonic()
     last = begun
 
@@ -224,9 +224,9 @@ def run_begun(
     **places: Any,
 ) -> Iterator[tuple[RunFolder, Prepared, SceneEstimate]]:
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
-    scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
-    ``kept_by``: the kind of a run whose saved points any run of that kind and the same scene uses, whatever its ``key``; "":
-    only the same run does.
+    scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said,
+    if anything is. ``kept_by``: the kind of a run whose saved points any run of that kind and the same scene uses,
+    whatever its ``key``; "": only the same run does.
 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
@@ -253,15 +253,15 @@ def run_begun(
         begin_beside(figures.make_ready)  # while it is solved
         if folder.has_other_states and not folder.unfinished.is_dir():
             say(
-                f"{folder.unfinished.parent} contains saved states of an interrupted run of another scene or version of "
-                "lubfric; they are not used, and this run starts from its beginning"
+                f"{folder.unfinished.parent} contains saved states of an interrupted run of another scene or version "
+                "of lubfric; they are not used, and this run starts from its beginning"
             )
         yield folder, prepared, estimate
 
 
 def _remove_pictures_so_far(folder: Path) -> None:
-    """Remove the pictures that ``lubfric plot`` drew of the unfinished curve or study, and their ``folder`` where it has nothing
-    else."""
+    """Remove the pictures that ``lubfric plot`` drew of the unfinished curve or study, and their ``folder`` where it
+    has nothing else."""
     if folder.is_dir() and not folder.is_symlink():
         OwnFiles(folder).remove(f"{name}.{kind}" for name in PICTURES_SO_FAR for kind in PICTURE_FORMATS)
 
@@ -364,7 +364,8 @@ class RepeatedRun:
         return shlex.join(("lubfric", "run", RESOLVED_SCENE, *self.options))
 
     def file(self, folder: Path) -> str:
-        """Return the text of resolved.toml in ``folder``: the scene, and the options, which 'lubfric run' takes from there."""
+        """Return the text of resolved.toml in ``folder``: the scene, and the options, which 'lubfric run' takes from
+        there."""
         head = f"{OPTIONS_KEY} = {json.dumps(self.options)}\n" if self.options else ""
         return head + self.scene.to_toml(folder)
 
@@ -406,8 +407,9 @@ class RunFolder:
     """What a command that has ``begun`` puts in the folder ``path``: ``contents`` by name. The
     last says that the others are complete.
 
-    ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone. ``is_needed``:
-    whether runs of the same states still need it. ``map_checksums``: of the height maps that were read, by path.
+    ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone.
+    ``is_needed``: whether runs of the same states still need it. ``map_checksums``: of the height maps that were read,
+    by path.
     """
 
     def __init__(self, path: Path, begun: CommandStart, fingerprint: str, states: str):
@@ -517,15 +519,16 @@ class RunFolder:
         if not self.failures:  # else what was saved is all that has everything
             if self.is_needed:
                 say(
-                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene with more points; the command of "
-                    "that run continues it"
+                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene with more points; "
+                    "the command of that run continues it"
                 )
             else:
                 Store(self.unfinished).clear()
                 clear_checked(self.unfinished.parent)
         if self.has_other_states:
             say(
-                f"{self.unfinished.parent} keeps the points of an interrupted run of other inputs; the command of that run continues it"
+                f"{self.unfinished.parent} keeps the points of an interrupted run of other inputs; the command of "
+                "that run continues it"
             )
 
     def put(self, patterns: Iterable[str] = (), lines: Iterable[str] = ()) -> None:
@@ -539,7 +542,8 @@ class RunFolder:
 
 @contextmanager
 def run_folder(path: Path, begun: CommandStart, fingerprint: str = "", states: str = "") -> Iterator[RunFolder]:
-    """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint`` and ``states``: a `RunFolder`.
+    """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint`` and ``states``: a
+    `RunFolder`.
 
     Raises `InputError` if another process writes to it, and `OutputError` if it cannot be used, or if a picture was not
     drawn.

@@ -130,8 +130,8 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
 
 
 def _near(fields: ContactFields, half_width: float) -> np.ndarray:
-    """Return which of the places along x are drawn: those around the Hertz strip, and the inlet from where its pressure is
-    `INLET_PRESSURE` of the largest."""
+    """Return which of the places along x are drawn: those around the Hertz strip, and the inlet from where its pressure
+    is `INLET_PRESSURE` of the largest."""
     usual = PICTURED_HALF_WIDTHS * half_width
     mean = fields.pressure.mean(axis=1)
     carries = fields.x[mean >= INLET_PRESSURE * mean.max()]
@@ -157,8 +157,8 @@ def _title(figure: Figure, text: str, options: PictureOptions) -> None:
 
 
 def size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:
-    """Return width and height [inch] of a figure with so many maps of x and y beside each other, or wide ones below each
-    other (`are_stacked`), each with its bar of colours, without room that nothing fills."""
+    """Return width and height [inch] of a figure with so many maps of x and y beside each other, or wide ones below
+    each other (`are_stacked`), each with its bar of colours, without room that nothing fills."""
     ratio = _drawn_ratio(x, y)
     if are_stacked(x, y):
         return STACKED_WIDTH + MAP_BESIDE, count * (STACKED_WIDTH * ratio + STACKED_ABOVE) + MAP_ABOVE - STACKED_ABOVE
@@ -255,8 +255,8 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
 
 
 def _panels(count: int, options: PictureOptions, *, slender: bool, ratio: float) -> tuple[Figure, list[Axes]]:
-    """Return a figure with ``count`` panels: beside each other, or in a narrow picture below each other. ``ratio``: height over
-    width of the map, which is no lower than the section needs."""
+    """Return a figure with ``count`` panels: beside each other, or in a narrow picture below each other. ``ratio``:
+    height over width of the map, which is no lower than the section needs."""
     ratios = [0.55 if slender else 1.0, 1.0][:count]
     (width, height) = SECTION_SIZE
     height = min(height, ABOVE_SECTION + MAP_IN_SECTION * ratio)
@@ -276,7 +276,8 @@ def _panels(count: int, options: PictureOptions, *, slender: bool, ratio: float)
 
 
 def _stacked(count: int, ratio: float, options: PictureOptions) -> tuple[Figure, list[Axes]]:
-    """Return a figure of a map whose height over width is the ``ratio``, and, where ``count`` is 2, a section below it."""
+    """Return a figure of a map whose height over width is the ``ratio``, and, where ``count`` is 2, a section below
+    it."""
     usual = STACKED_WIDTH + MAP_BESIDE
     whole = usual if options.width is None else options.width / INCH
     heights = [(whole - MAP_BESIDE) * ratio + MAP_ABOVE, SECTION_SIZE[1] * whole / usual][:count]

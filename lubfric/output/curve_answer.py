@@ -17,7 +17,8 @@ from .budget_bars import names_of_inputs
 from .describe import is_among, rolling_in_words
 from .operating_point import operating_point_not_solved, operating_point_of, place_on_curve
 
-# Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
+# Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A
+# convention.
 FULL_FILM_PART = 0.01
 # Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
 MOST_STEP = 10.0
@@ -27,9 +28,9 @@ FASTER = 1.1
 LARGEST_BETWEEN = 0.5
 # Which force f is, where a reader may ask for its sign.
 SIGN_OF_F = (
-    "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 ([surface], U (1 - "
-    "S/2)), over the load: positive where it resists the sliding, at either sign of the slide-roll ratio S. The rolling part raises f "
-    "at positive S, and lowers it, even below 0, at negative S."
+    "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 "
+    "([surface], U (1 - S/2)), over the load: positive where it resists the sliding, at either sign of the slide-roll "
+    "ratio S. The rolling part raises f at positive S, and lowers it, even below 0, at negative S."
 )
 # What is known of f where the sample is too short for an interval.
 WITHOUT_SAMPLING = (
@@ -70,13 +71,13 @@ def curve_answer(
     sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
-            f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
-            f"{point.lambda_ratio:.3g}."
+            f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio "
+            f"of {point.lambda_ratio:.3g}."
         )
         if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
             sentences[-1] += (
-                f" The film carries the load, and the solved film is {plain_number(point.central_film, 'm')} thick at the "
-                f"centre, {point.film_to_roughness_ratio:.3g} times Sq."
+                f" The film carries the load, and the solved film is {plain_number(point.central_film, 'm')} thick at "
+                f"the centre, {point.film_to_roughness_ratio:.3g} times Sq."
             )
     share = point.contact_load / (point.contact_load + point.film_load)
     rubbing = point.decision.contact_load_in_words.format(part=f"{100 * share:.3g} %")
@@ -111,8 +112,8 @@ def _inputs_in_interval(point: FrictionResult) -> str:
 
 
 def change_of_model(curve: CurveResult) -> list[str]:
-    """Return in a sentence which points of a ``curve`` are by which model, and what that does to its numbers; none where all are
-    by the same."""
+    """Return in a sentence which points of a ``curve`` are by which model, and what that does to its numbers; none
+    where all are by the same."""
     name, _, unit, plural = curve.SWEPT
     places: dict[str, list[float]] = {}
     for value, point in zip(getattr(curve, name).tolist(), curve.points):
@@ -122,8 +123,8 @@ def change_of_model(curve: CurveResult) -> list[str]:
         return []
     parts = "; ".join(f"{at_values(values, unit, plural)} by the {model}" for model, values in places.items())
     return [
-        f"Several models solved the points: {parts}. Each model has its own error, so numbers other than f, such as the smallest film "
-        "and the temperature rises, jump where the model changes."
+        f"Several models solved the points: {parts}. Each model has its own error, so numbers other than f, such as "
+        "the smallest film and the temperature rises, jump where the model changes."
     ]
 
 
@@ -138,11 +139,11 @@ def model_in_words(basis: str, model: str) -> str:
 
 
 def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
-    """Return in a sentence how f and the lambda ratio of a ``point`` in mixed lubrication change with the speed, between the
-    solved speeds on both sides of it; none for other points, or where these are far apart.
+    """Return in a sentence how f and the lambda ratio of a ``point`` in mixed lubrication change with the speed,
+    between the solved speeds on both sides of it; none for other points, or where these are far apart.
 
-    At the same slide-roll ratio the equations of film and shear contain the viscosity in the product with the speed alone,
-    but for the heat and for the pressure-viscosity coefficient, which is held.
+    At the same slide-roll ratio the equations of film and shear contain the viscosity in the product with the speed
+    alone, but for the heat and for the pressure-viscosity coefficient, which is held.
     """
     if not isinstance(curve, StribeckResult) or point.contact_load <= FULL_FILM_PART * (
         point.contact_load + point.film_load
@@ -164,14 +165,14 @@ def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
         (first, last) = curve[name][ends]
         changes.append(f"{100 * ((last / first) ** by_factor - 1):+.2g} %")
     return [
-        f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} and the "
-        f"lambda ratio by {changes[1]}. As much more viscosity has the same effect, except for heat."
+        f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} "
+        f"and the lambda ratio by {changes[1]}. As much more viscosity has the same effect, except for heat."
     ]
 
 
 def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
-    """Return the lift-off speed of a curve over the speed in sentences, and how well f is known between its speeds; none
-    for too few points. ``point``: that of the answer."""
+    """Return the lift-off speed of a curve over the speed in sentences, and how well f is known between its speeds;
+    none for too few points. ``point``: that of the answer."""
     if not isinstance(curve, StribeckResult):
         return []
     try:
@@ -184,8 +185,8 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
         first = f"The lift-off speed is {'above' if touching else 'below'} the speeds solved."
     elif math.isnan(speed):
         first = (
-            f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
-            f"{high:.4g} m/s; "
+            "The lift-off speed, above which the film separates the surfaces, lies between the solved speeds "
+            f"{low:.4g} and {high:.4g} m/s; "
         )
         inexact = curve.numerical_at_lift_off
         first += (
@@ -201,15 +202,15 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
         between = "Between some of the solved speeds f is not known."
     else:
         between = (
-            f"Between the solved speeds f is interpolated within {percent(curve.between)}, in addition to the errors of these points"
-            f"{largest_error_of_points(curve)}."
+            f"Between the solved speeds f is interpolated within {percent(curve.between)}, in addition to the errors "
+            f"of these points{largest_error_of_points(curve)}."
         )
     return [f"{first} {between} {minimum_in_words(curve)}"]
 
 
 def largest_error_of_points(curve: StribeckResult) -> str:
-    """Return how large half the 95 % interval of f at a point of a curve is at most, as text to be appended; "" where that is
-    not known, or f is near 0."""
+    """Return how large half the 95 % interval of f at a point of a curve is at most, as text to be appended; "" where
+    that is not known, or f is near 0."""
     if any(point is not None and point.uncertainty.is_near_zero for point in curve.points):
         return ""
     good = np.isfinite(curve.coefficient) & (curve.coefficient != 0)

@@ -23,8 +23,8 @@ OPERATING_POINT = " (operating point)"
 
 
 def operating_table(scene: Scene, curve: CurveResult) -> str:
-    """Return the table of all points: what was swept, f with its interval, and the numbers of the point. That of the scene's
-    own speed or ratio is named where there are others."""
+    """Return the table of all points: what was swept, f with its interval, and the numbers of the point. That of the
+    scene's own speed or ratio is named where there are others."""
     swept = curve.SWEPT[0]
     names = (swept, *OF_POINT)
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
@@ -98,9 +98,9 @@ def formula_of_curve(law: Law | str, curve: CurveResult) -> str:
             f'<p class="warning">{escape(sentence(law.warning.removeprefix("warning: ")))}</p>' if law.warning else ""
         )
         text = (
-            f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
-            f"most {deviation} from the curve through the solved points, which adds at most {within} between them to "
-            f"the errors of the points{largest_error_of_points(curve)}. Check "
+            f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It "
+            f"deviates by at most {deviation} from the curve through the solved points, which adds at most {within} "
+            f"between them to the errors of the points{largest_error_of_points(curve)}. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )
     else:

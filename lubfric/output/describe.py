@@ -160,8 +160,8 @@ def described_scene(
     scene: Scene, speeds: Sequence[float] | str = (), ratios: Sequence[float] = (), *, measures: bool = False
 ) -> tuple[str, SceneEstimate]:
     """Return the text of `describe_scene`, and what it states; of a traction curve at the slide-roll ``ratios``.
-    ``measures``: where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved, and the
-    processor time follows from them."""
+    ``measures``: where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved,
+    and the processor time follows from them."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)

@@ -1,5 +1,5 @@
-"""The effects of the inputs of a study on f, where no lines could tell all its points apart: a panel for each input, with
-the mean of f at each of its values and the range of f over all other inputs."""
+"""The effects of the inputs of a study on f, where no lines could tell all its points apart: a panel for each input,
+with the mean of f at each of its values and the range of f over all other inputs."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Speeds up to which f is drawn over the inputs, in a colour for each speed; of more it is drawn over the speed. A choice, by
-# looking at the figures.
+# Speeds up to which f is drawn over the inputs, in a colour for each speed; of more it is drawn over the speed. A
+# choice, by looking at the figures.
 FEW_SPEEDS = 4
 
 # Values of an input that have a colour each, at most; else its points are in as many groups of equal size as `GROUPS`.
@@ -51,7 +51,8 @@ PANEL_ROOM = 0.75
 # Part of the variance below which it is not stated as a number. A choice: smaller ones are rounding.
 LEAST_SHARE = 0.01
 
-# Letters in a row of the key below the panels, of the usual width and of a narrow one. Chosen by looking at the figures.
+# Letters in a row of the key below the panels, of the usual width and of a narrow one. Chosen by looking at the
+# figures.
 KEY_LETTERS = 105
 NARROW_KEY_LETTERS = 62
 
@@ -77,8 +78,8 @@ class Group(NamedTuple):
 def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureOptions) -> Figure:
     """Return a figure with a panel for each of the ``keys``, that of the largest part of the variance of ln f first.
 
-    Where the study has at most `FEW_SPEEDS` speeds, or each point its own, f is drawn over the key, in a colour for each
-    speed; else over the speed, in a colour for each value of the key, or for the low, middle and high ones.
+    Where the study has at most `FEW_SPEEDS` speeds, or each point its own, f is drawn over the key, in a colour for
+    each speed; else over the speed, in a colour for each value of the key, or for the low, middle and high ones.
     """
     shares = studies.main_effects(result)
     ordered = [*(key for key in shares if key in keys), *(key for key in keys if key not in shares)]
@@ -118,8 +119,8 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
 
 
 def _columns(result: studies.StudyResult) -> dict[str, np.ndarray]:
-    """Return the points of a study with a known f, (n,), by the magnitude of their speed; of curves that chose their speeds,
-    each at common ones."""
+    """Return the points of a study with a known f, (n,), by the magnitude of their speed; of curves that chose their
+    speeds, each at common ones."""
     columns = studies.columns_of_study(result)
     known = np.isfinite(columns["coefficient"])
     shown = {name: values[known] for name, values in columns.items()}
@@ -128,8 +129,8 @@ def _columns(result: studies.StudyResult) -> dict[str, np.ndarray]:
 
 
 def _at_common_speeds(result: studies.StudyResult, shown: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Return the curves of a study at common speeds, those at which most curves are known, as a mean of others would jump; the
-    points that are ``shown`` if there are no curves."""
+    """Return the curves of a study at common speeds, those at which most curves are known, as a mean of others would
+    jump; the points that are ``shown`` if there are no curves."""
     used = shown[studies.SPEED][shown[studies.SPEED] > 0]
     grid = np.geomspace(used.min(), used.max(), COMMON_SPEEDS)
     curves = {index: result.curve(index) for index in np.ndindex(*result.status.shape[:-1])}
@@ -195,8 +196,8 @@ def _draw_over_speed(axes: Axes, columns: dict[str, np.ndarray], groups: list[Gr
 def _draw_over_key(
     axes: Axes, columns: dict[str, np.ndarray], key: str, groups: list[Group], *, is_scattered: bool, width: float
 ) -> None:
-    """Draw f over the values of a ``key``, in a colour for each of the ``groups``, beside each other: its mean, middle half and
-    range, or the points of a number that ``is_scattered``. ``width``: of the bars over the usual one."""
+    """Draw f over the values of a ``key``, in a colour for each of the ``groups``, beside each other: its mean, middle
+    half and range, or the points of a number that ``is_scattered``. ``width``: of the bars over the usual one."""
     values = columns[key]
     is_number = values.dtype.kind in "fi"
     names = [] if is_number else list(dict.fromkeys(values.tolist()))
@@ -229,8 +230,8 @@ def _draw_over_key(
 
 
 def _spread(x: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the different ``x``, and of f there the smallest value, lower quartile, mean, upper quartile and largest value
-    (5, n); quartiles are NaN of fewer points than `LEAST_FOR_QUARTILES`."""
+    """Return the different ``x``, and of f there the smallest value, lower quartile, mean, upper quartile and largest
+    value (5, n); quartiles are NaN of fewer points than `LEAST_FOR_QUARTILES`."""
     (distinct, place) = np.unique(x, return_inverse=True)
     numbers = np.full((5, distinct.size), np.nan)
     for column in range(distinct.size):

@@ -29,8 +29,8 @@ def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterabl
 def effects_table(
     effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, which: str = "", moments: Sequence[str] = ()
 ) -> str:
-    """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place; ``moments``: of
-    a run in time, when each is largest."""
+    """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place;
+    ``moments``: of a run in time, when each is largest."""
     if not effects:
         return f"<p>Each known effect changes f {escape(place)} by less than numerics.tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
@@ -46,8 +46,8 @@ def effects_table(
 
 
 def effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
-    """Return the table of the effects that are not modelled and are not ``listed`` for the operating point, each at the point of
-    the curve where it changes f the most; "" where there are none."""
+    """Return the table of the effects that are not modelled and are not ``listed`` for the operating point, each at the
+    point of the curve where it changes f the most; "" where there are none."""
     largest: dict[str, tuple[float, UnmodelledEffect, str]] = {}
     for index, point in enumerate(curve.points):
         if point is None:

@@ -29,8 +29,9 @@ def note_on_touching(films: Iterable[float]) -> str:
 
 
 def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
-    """Return in a sentence how much of the load films at their limiting stress carry that are no part of the asperity load, by
-    the ``loads`` (`LOADS`) [N] of some points; "" where that is less than `LEAST_AT_LIMIT` everywhere or not known."""
+    """Return in a sentence how much of the load films at their limiting stress carry that are no part of the asperity
+    load, by the ``loads`` (`LOADS`) [N] of some points; "" where that is less than `LEAST_AT_LIMIT` everywhere or not
+    known."""
     (contact, film, boundary, saturated) = (loads[name] for name in LOADS)
     shares = (saturated - np.maximum(contact - boundary, 0.0)) / (contact + film)
     shares = shares[shares > LEAST_AT_LIMIT]
@@ -39,6 +40,6 @@ def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
     ends = " to ".join(dict.fromkeys(f"{100 * end:.2g}" for end in (shares.min(), shares.max())))
     where = f" at {shares.size} of {counted(contact.size, 'points')}" if contact.size > 1 else ""
     return (
-        f"Films sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio does not include "
-        "this load."
+        f"Films sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio does not "
+        "include this load."
     )

@@ -1,4 +1,5 @@
-"""report.html of a fit: status, parameters with their intervals, what the data do not determine, tests, picture, inputs."""
+"""report.html of a fit: status, parameters with their intervals, what the data do not determine, tests, picture,
+inputs."""
 
 import math
 import time
@@ -35,8 +36,8 @@ ALPHA_IS_ESTIMATE = " The pressure-viscosity coefficient is an estimate, and its
 
 # What f is beside the measured points.
 OF_POINTS = (
-    "Measured f, fitted f with the 95 % interval that follows from those of the parameters, and the deviation of the measured f "
-    "from the fitted one, relative to the measured f."
+    "Measured f, fitted f with the 95 % interval that follows from those of the parameters, and the deviation of the "
+    "measured f from the fitted one, relative to the measured f."
 )
 
 
@@ -124,8 +125,8 @@ def fit_answer(result: FitResult) -> list[str]:
     what = "speeds" if measured.over == studies.SPEED else "slide-roll ratios"
     sentences = [
         f"{values[0].upper()}{values[1:]}.",
-        f"The fitted curve deviates from the {counted(measured.x.size, 'measured points')} of {measured.source}, over {what}, by "
-        f"{100 * result.rms_deviation:.2g} % of the measured f (root mean square).",
+        f"The fitted curve deviates from the {counted(measured.x.size, 'measured points')} of {measured.source}, over "
+        f"{what}, by {100 * result.rms_deviation:.2g} % of the measured f (root mean square).",
     ]
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]
@@ -210,13 +211,13 @@ def residuals_in_words(result: FitResult) -> list[str]:
     lines = [sentence(text) for text in (tests.text, tests.note) if text]
     if math.isfinite(tests.size) and not tests.too_large:
         lines.append(
-            f"The residuals are {tests.times_stated:.2g} times as large as the stated deviations (root mean square, with the degrees "
-            "of freedom that the parameters leave)."
+            f"The residuals are {tests.times_stated:.2g} times as large as the stated deviations (root mean square, "
+            "with the degrees of freedom that the parameters leave)."
         )
     elif math.isnan(tests.size) and not tests.too_far:
         lines.append(
-            f"The deviations of the points are not stated: {100 * tests.relative:.2g} % of f (root mean square) is a scatter that "
-            "measurements have."
+            f"The deviations of the points are not stated: {100 * tests.relative:.2g} % of f (root mean square) is a "
+            "scatter that measurements have."
         )
     return lines
 
@@ -291,11 +292,12 @@ def _method(result: FitResult) -> list[str]:
         f"Bounded least squares of the residuals, computed minus measured f over {scale}, by a trust region.",
         search,
         f"The fitted curve is solved at the fitted values: {models or 'model not known'} "
-        f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f {percent(result.tolerance)}{by_noise}.",
+        f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f "
+        f"{percent(result.tolerance)}{by_noise}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
-        "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter without effect on f there "
-        "is varied up to its bounds.",
+        "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter without effect on f "
+        "there is varied up to its bounds.",
     ]
 
 
@@ -312,7 +314,7 @@ def _made(record: Mapping[str, Any]) -> str:
         ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
     ]
     note = (
-        f"<p><code>{escape(record['command'])}</code> computes the same numbers with the versions and files below. fitted.toml is the "
-        "scene with the fitted values, fit.json the record; the folder keeps every solved point.</p>"
+        f"<p><code>{escape(record['command'])}</code> computes the same numbers with the versions and files below. "
+        "fitted.toml is the scene with the fitted values, fit.json the record; the folder keeps every solved point.</p>"
     )
     return note + facts_table(rows)

@@ -12,7 +12,8 @@ from .markup import number_or_dash
 
 
 def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
-    """Return the answer of a run of ``scene`` in time in sentences; of one that is not ``complete`` what its outputs show."""
+    """Return the answer of a run of ``scene`` in time in sentences; of one that is not ``complete`` what its outputs
+    show."""
     if result.time.size < 2:
         return ["The run has no answer."]
     mean = result.average()
@@ -45,7 +46,8 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         (low, high) = mean.power_loss_interval
         taken = with_interval(duration * mean.power_loss, duration * low, duration * high, unit="J")
         sentences.append(
-            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in {worded(duration, 's')}."
+            f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in "
+            f"{worded(duration, 's')}."
         )
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
@@ -55,14 +57,15 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
     if ratio.size:
         sentences.append(
-            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies between "
-            f"{number_or_dash(float(ratio.min()))} and {number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
+            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies "
+            f"between {number_or_dash(float(ratio.min()))} and "
+            f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )
     solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
     if solved.size:
         sentences.append(
-            f"The solved central separation lies between {number_or_dash(float(solved.min()))} and {number_or_dash(float(solved.max()))} "
-            "times Sq."
+            f"The solved central separation lies between {number_or_dash(float(solved.min()))} and "
+            f"{number_or_dash(float(solved.max()))} times Sq."
         )
     if result.start_in_words:
         sentences.append(result.start_in_words)
@@ -75,13 +78,15 @@ def _moment(result: TransientResult, index: int) -> str:
 
 
 def _without_lambda_ratio(result: TransientResult) -> str:
-    """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for none."""
+    """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for
+    none."""
     count = int(np.sum(~rolls(result.columns)))
     return f"; {counted(count, 'outputs')} without entrainment {'have' if count > 1 else 'has'} none" if count else ""
 
 
 def _largest_force(result: TransientResult) -> str:
-    """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a sentence."""
+    """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a
+    sentence."""
     force = np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)
     index = int(np.nanargmax(force))
     load = float(result.load[index])
@@ -124,8 +129,8 @@ def history_notes(scene: Scene, result: TransientResult) -> list[str]:
 
 
 def _model_of_run(scene: Scene, result: TransientResult) -> str:
-    """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may have a
-    narrower interval."""
+    """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may
+    have a narrower interval."""
     answers = f"The {run_model_of(scene).model_in_words} answers at all times."
     target = scene.numerics.model_tolerance
     wide = counts_in_average(result.columns) & (result.uncertainty.model > target)
@@ -133,8 +138,9 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
         return answers
     return (
         f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
-        "(numerics.model_tolerance). For a narrower interval, solve a steady point with the values of such a moment (a scene without "
-        "[transient]); this helps where the deterministic model applies and heat causes less than half of this error."
+        "(numerics.model_tolerance). For a narrower interval, solve a steady point with the values of such a moment "
+        "(a scene without [transient]); this helps where the deterministic model applies and heat causes less than "
+        "half of this error."
     )
 
 

@@ -24,7 +24,8 @@ OF_OUTPUT = {
 }
 # Rows of the table of a run in time, about. A choice, for a table that can be read.
 HISTORY_ROWS = 13
-# Quantities whose change over time decides of which outputs that table has rows. A choice: what a user puts into a run, and f.
+# Quantities whose change over time decides of which outputs that table has rows. A choice: what a user puts into a run,
+# and f.
 CHANGING = ("entrainment_speed", "sliding_speed", "load", "coefficient")
 # Part of the change of a run that is below it. A choice: above the differences of moments that repeat one another.
 SAME_CHANGE = 1e-3
@@ -34,7 +35,8 @@ TABLE_ROUNDING = 1e-8
 
 
 def history_table(result: TransientResult) -> str:
-    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those with the largest f and power."""
+    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those with the
+    largest f and power."""
     count = result.time.size
     if count < 2:
         return ""
@@ -77,8 +79,8 @@ def history_table(result: TransientResult) -> str:
         rows.append(number_cells([time, *others, f, interval, *numbers, ratio]))
     about = f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with the largest f and the largest power loss;"
     films = (
-        " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the part "
-        "of the load that the film carries, so it may be thicker."
+        " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the "
+        "part of the load that the film carries, so it may be thicker."
         if (c["contact_load"] > 0).any()
         else ""
     )

@@ -25,8 +25,8 @@ MOST_GIVEN = 60  # characters of a value in the column of how an input was given
 
 
 def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:
-    """Return the inputs of a section: each value used, how it was given, and what follows from them; ``fitted``: the keys that
-    a fit found."""
+    """Return the inputs of a section: each value used, how it was given, and what follows from them; ``fitted``: the
+    keys that a fit found."""
     shown = dict(given)
     rows = []
     for label, text, key, note in inputs(scene, section):
@@ -61,8 +61,8 @@ def _used_in_words(key: str, value: Any) -> str:
 
 
 def _is_derived(scene: Scene, section: str, name: str, given: dict[str, Any]) -> bool:
-    """Return whether a value that is not among the ``given`` keys of a section follows from one of these, and is not the default
-    of its key; a material or an oil with a name has values that may be alike."""
+    """Return whether a value that is not among the ``given`` keys of a section follows from one of these, and is not
+    the default of its key; a material or an oil with a name has values that may be alike."""
     if not any(key in given for key in (*short_keys(section), NAMED_OIL)):
         return False
     used = getattr(scene, section)

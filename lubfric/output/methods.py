@@ -1,4 +1,5 @@
-"""What a report says of its methods: the contact and the oil in a line, a paragraph to quote, what was solved, and by which versions."""
+"""What a report says of its methods: the contact and the oil in a line, a paragraph to quote, what was solved, and by
+which versions."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -30,7 +31,8 @@ def scene_in_words(scene: Scene) -> str:
 
 
 def methods_to_quote(facts: Sequence[str], result: Any) -> str:
-    """Return a paragraph about the ``facts`` of a scene and the methods of its ``result`` (`cite`), which a reader may quote."""
+    """Return a paragraph about the ``facts`` of a scene and the methods of its ``result`` (`cite`), which a reader may
+    quote."""
     text = " ".join([*map(sentence, facts), result.cite("methods")]).strip()
     return f'<p class="small">Methods, to quote:</p><blockquote>{escape(text)}</blockquote>' if text else ""
 
@@ -76,8 +78,9 @@ def made_table(record: dict[str, Any]) -> str:
         ("solver", record["report"]["solver"]),
     ]
     note = (
-        f"<p>resolved.toml contains the scene with all defaults. In its folder, <code>{escape(record['command'])}</code> "
-        "computes the same numbers with the versions and height maps below.</p>"
+        "<p>resolved.toml contains the scene with all defaults. In its folder, "
+        f"<code>{escape(record['command'])}</code> computes the same numbers with the versions and height maps "
+        "below.</p>"
     )
     return note + facts_table(rows)
 

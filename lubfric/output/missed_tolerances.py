@@ -40,23 +40,26 @@ class MissedTolerance:
     limit: float
 
     def in_words(self, total: int, place: Callable[[int], str]) -> str:
-        """Return the miss in a sentence; ``total``: number of solved points; ``place``: gives where a row lies, as "at point 3"."""
+        """Return the miss in a sentence; ``total``: number of solved points; ``place``: gives where a row lies, as "at
+        point 3"."""
         value, limit = percent_beside(self.value, self.limit)
         if total == 1:
             return f"The {self.error} is {value}, above {limit} ({self.tolerance})."
         if len(self.points) == 1:
             return f"{sentence(place(self.worst)).removesuffix('.')} the {self.error} is {value}, above {limit} ({self.tolerance})."
         return (
-            f"At {len(self.points)} of {total} points the {self.error} is above its tolerance, farthest {place(self.worst)}: {value}, "
-            f"above {limit} ({self.tolerance})."
+            f"At {len(self.points)} of {total} points the {self.error} is above its tolerance, farthest "
+            f"{place(self.worst)}: {value}, above {limit} ({self.tolerance})."
         )
 
 
 def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]) -> Iterator[MissedTolerance]:
-    """Yield the tolerances that points miss, by the ``columns`` of their errors, (n,), and the scene of each point, (n,).
+    """Yield the tolerances that points miss, by the ``columns`` of their errors, (n,), and the scene of each point,
+    (n,).
 
-    The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error counts without
-    that by an unknown limiting stress, of any model. Where f is near 0, or that of rolling resistance, no relative error counts.
+    The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error
+    counts without that by an unknown limiting stress, of any model. Where f is near 0, or that of rolling resistance,
+    no relative error counts.
     """
     f = _column(columns, "coefficient", len(scenes))
     slides = is_by_sliding({"coefficient": f, **columns})

@@ -1,4 +1,5 @@
-"""The operating point of a scene on its curve: the scene's own speed or slide-roll ratio, and the solved point nearest to it."""
+"""The operating point of a scene on its curve: the scene's own speed or slide-roll ratio, and the solved point nearest
+to it."""
 
 from collections.abc import Iterable
 
@@ -17,8 +18,8 @@ def operating_point_of(scene: Scene, name: str) -> float:
 
 
 def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str = "speed") -> str:
-    """Return in a sentence why a curve over speeds or slide-roll ratios (``name``: "speed", "ratio") has no point at the
-    scene's own one, which is its operating point; "" where it is one of those ``solved``."""
+    """Return in a sentence why a curve over speeds or slide-roll ratios (``name``: "speed", "ratio") has no point at
+    the scene's own one, which is its operating point; "" where it is one of those ``solved``."""
     value = operating_point_of(scene, name)
     others = list(solved)
     if is_among(value, others):
@@ -33,8 +34,8 @@ def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str 
 
 
 def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str, float] | None:
-    """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no point
-    has an answer."""
+    """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no
+    point has an answer."""
     name = curve.SWEPT[0]
     scene_value = operating_point_of(scene, name)
     away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - scene_value), np.inf)

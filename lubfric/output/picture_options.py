@@ -92,8 +92,8 @@ class PictureOptions:
                 line.set_markeredgewidth(THINNER * line.get_markeredgewidth())
 
     def style(self) -> dict[str, float]:
-        """Return what differs from the style of pictures.mplstyle: the resolution, and the sizes of fonts [pt], which are
-        smaller in a narrow picture."""
+        """Return what differs from the style of pictures.mplstyle: the resolution, and the sizes of fonts [pt], which
+        are smaller in a narrow picture."""
         dpi = PRINTED_DPI if self.dpi is None and self.width is not None else self.dpi
         resolution = {} if dpi is None else {"savefig.dpi": dpi}
         return resolution | self._fonts()

@@ -64,9 +64,10 @@ def plot_stribeck(
 ) -> None:
     """Draw f, the load ratios and the film over the entrainment speed.
 
-    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``violations``:
-    for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured`, drawn with the
-    curve. ``operating_point``: the solved speed [m/s] that is the scene's own; NaN marks none.
+    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted.
+    ``violations``: for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a
+    `lubfric.Measured`, drawn with the curve. ``operating_point``: the solved speed [m/s] that is the scene's own; NaN
+    marks none.
     """
     panels = [name for name in PANELS["stribeck"] if name in options.panels]
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
@@ -108,8 +109,8 @@ def plot_stribeck(
 
 
 def _is_point(order: np.ndarray, measured: Any, options: PictureOptions) -> bool:
-    """Return whether one point is drawn, in the places ``order`` of a table, with nothing else over an axis of speeds or ratios and
-    no scale of an axis chosen."""
+    """Return whether one point is drawn, in the places ``order`` of a table, with nothing else over an axis of speeds
+    or ratios and no scale of an axis chosen."""
     return order.size == 1 and measured is None and options.x_scale is None and options.y_scale is None
 
 
@@ -131,8 +132,8 @@ def _save_point(
 
 
 def _draw_measured(axes: Axes, measured: Any, *, is_signed: bool = False) -> None:
-    """Draw a `lubfric.Measured` among the lines of a curve; None draws nothing. ``is_signed``: the axis has slide-roll ratios
-    of both signs, not magnitudes."""
+    """Draw a `lubfric.Measured` among the lines of a curve; None draws nothing. ``is_signed``: the axis has slide-roll
+    ratios of both signs, not magnitudes."""
     if measured is None:
         return
     measured.draw(axes, is_signed=is_signed)
@@ -142,15 +143,16 @@ def _draw_measured(axes: Axes, measured: Any, *, is_signed: bool = False) -> Non
 def _mark_operating_point(
     axes: Axes, solved: np.ndarray, x: np.ndarray, coefficient: np.ndarray, operating_point: float
 ) -> None:
-    """Mark f at the ``operating_point``, one of the ``solved`` speeds or ratios, at its ``x`` of the axis; NaN marks none."""
+    """Mark f at the ``operating_point``, one of the ``solved`` speeds or ratios, at its ``x`` of the axis; NaN marks
+    none."""
     own = solved == operating_point
     if own.any():
         axes.plot(x[own], coefficient[own], "*", color="k", ms=9, label=figures.OPERATING_POINT_MARK)
 
 
 def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Draw the full-load film thickness and the central separation over ``speed``, or a slide-roll ratio, and the roughness to
-    compare."""
+    """Draw the full-load film thickness and the central separation over ``speed``, or a slide-roll ratio, and the
+    roughness to compare."""
     separation = c["central_film"]
     film = c.get("full_load_film", np.full(speed.shape, np.nan))
     unit = unit_for(separation.tolist(), "m")
@@ -177,8 +179,8 @@ def plot_traction(
     options: PictureOptions = PictureOptions(),
     operating_point: float = np.nan,
 ) -> None:
-    """Draw f, the load ratios and the film over the slide-roll ratio, and below, where they were computed, temperatures.
-    Arguments as of `plot_stribeck`."""
+    """Draw f, the load ratios and the film over the slide-roll ratio, and below, where they were computed,
+    temperatures. Arguments as of `plot_stribeck`."""
     good = np.flatnonzero(np.isfinite(columns["coefficient"]))
     order = good[np.argsort(columns["ratio"][good])]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -280,7 +282,8 @@ def _mark(
     violations: list[Sequence[Any]],
     options: PictureOptions,
 ) -> None:
-    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below says which. Then the key of all lines."""
+    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below
+    says which. Then the key of all lines."""
     violations = _shown_violations(violations, options)
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
@@ -317,8 +320,9 @@ def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
 
 @figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
-    """Draw the map that the scene of ``prepared`` has, to scale: of generated strips the first, as two of them beside each other have
-    a seam, and of a long line the beginning; and the bearing (Abbott-Firestone) curve of the whole of it."""
+    """Draw the map that the scene of ``prepared`` has, to scale: of generated strips the first, as two of them beside
+    each other have a seam, and of a long line the beginning; and the bearing (Abbott-Firestone) curve of the whole of
+    it."""
     sample = prepared.sample
     surface = sample.whole_map
     is_one_of_strips = sample.first_strips > 1 and not is_measured(prepared.scene)
@@ -347,7 +351,8 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
     bearing.set_title(
-        f"{'all strips' if is_one_of_strips else 'complete map'}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}",
+        f"{'all strips' if is_one_of_strips else 'complete map'}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = "
+        f"{surface.ssk:.3g}",
         fontsize=10,
     )
     figure.savefig(
@@ -359,8 +364,8 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
 def plot_history(
     path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
 ) -> None:
-    """Draw speeds and load, film, load ratios, f, friction force and, where it is known, the power loss over time, from the columns
-    of history.csv."""
+    """Draw speeds and load, film, load ratios, f, friction force and, where it is known, the power loss over time, from
+    the columns of history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
     further = [_force_over_time] if "friction_force" in c else []
@@ -413,8 +418,8 @@ def plot_history(
 
 
 def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Draw the friction force on the upper surface over the times ``t`` of an axis, with the band of its intervals; none at
-    rest, where it may have any value up to that of the first slip."""
+    """Draw the friction force on the upper surface over the times ``t`` of an axis, with the band of its intervals;
+    none at rest, where it may have any value up to that of the first slip."""
     moving = in_motion(c)
     unit = unit_for(c["friction_force"][moving].tolist(), "N")
     if np.isfinite(c.get("interval_low", np.zeros(0))).any():

@@ -1,4 +1,5 @@
-"""The picture of a curve with one solved point: no axis of speeds, but f with its parts and its interval, load ratios and film."""
+"""The picture of a curve with one solved point: no axis of speeds, but f with its parts and its interval, load ratios
+and film."""
 
 from __future__ import annotations
 
@@ -35,8 +36,8 @@ PART_NAMES = {"not given": "input not given", "input": "ranges of inputs"}
 
 
 def draw_point(columns: Mapping[str, np.ndarray], panels: list[str], options: PictureOptions) -> Figure:
-    """Return a figure of the one point that the ``columns`` have, (1,): the ``panels`` that are wanted, of "friction", "load",
-    "film" and "temperature", and below f the parts of its interval unless the ``options`` omit them."""
+    """Return a figure of the one point that the ``columns`` have, (1,): the ``panels`` that are wanted, of "friction",
+    "load", "film" and "temperature", and below f the parts of its interval unless the ``options`` omit them."""
     numbers = {name: float(column[0]) for name, column in columns.items() if np.asarray(column).dtype.kind in "fiu"}
     rows: dict[str, int] = {}
     for name in panels:

@@ -1,5 +1,6 @@
-"""The progress of a long command: a line on stderr that is overwritten every second, with the time left. It appears on a
-terminal alone; files and pipes get the finished lines of the command, and one on the time left where none came for long."""
+"""The progress of a long command: a line on stderr that is overwritten every second, with the time left. It appears on
+a terminal alone; files and pipes get the finished lines of the command, and one on the time left where none came for
+long."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ _active: ProgressLine | None = None
 class ProgressLine:
     """Use as ``with ProgressLine("points") as progress: progress.update(done, total)``.
 
-    ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
+    ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a
+    bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
     """
 
     def __init__(self, unit: str, time_left: TimeLeft | None = None):
@@ -108,7 +110,8 @@ class ProgressLine:
             self._bar.refresh()
 
     def clear(self) -> None:
-        """Remove the line, so that another can be written in its place, which the next one on a file or a pipe waits for."""
+        """Remove the line, so that another can be written in its place, which the next one on a file or a pipe waits
+        for."""
         self._said = time.monotonic()
         if not self.draws:
             return
@@ -133,7 +136,8 @@ class ProgressLine:
 
 
 def state_part(text: str) -> bool:
-    """Put ``text``, how far a point is, on the line of the command that is running; return whether a terminal shows it."""
+    """Put ``text``, how far a point is, on the line of the command that is running; return whether a terminal shows
+    it."""
     if _active is not None:
         _active.part = text
     return _active is not None and _active.draws

@@ -119,8 +119,8 @@ def _caption_of_point(result: CurveResult | TransientResult) -> str:
 
 
 def _pictures(contents: dict[str, bytes], *, shows_answer: bool, caption: str = "") -> str:
-    """Return the pictures among ``contents`` that the page shows beside its answer, or at its end; ``caption``: of all of them, ""
-    for their own."""
+    """Return the pictures among ``contents`` that the page shows beside its answer, or at its end; ``caption``: of all
+    of them, "" for their own."""
     return "".join(
         picture(contents[name], caption or text) for name, text in captions(contents, shows_answer=shows_answer).items()
     )

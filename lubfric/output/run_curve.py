@@ -153,8 +153,8 @@ def _say_known(known: int, total: int, out: Path) -> None:
 
 
 def _workers(arguments: Namespace, scene: Scene, points: str | list[float]) -> int:
-    """Return the number of processes of a curve over ``points``, speeds or slide-roll ratios: that of the ``arguments``, else
-    `_default_workers`. Where the points have a process each, a line on stderr says so."""
+    """Return the number of processes of a curve over ``points``, speeds or slide-roll ratios: that of the
+    ``arguments``, else `_default_workers`. Where the points have a process each, a line on stderr says so."""
     if arguments.workers is not None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     else:
@@ -171,8 +171,8 @@ def _are_apart(points: str | list[float], workers: int) -> bool:
 
 
 def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
-    """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
-    not depend on it."""
+    """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers
+    do not depend on it."""
     several_speeds = speeds != studies.AUTO_SPEEDS and len(speeds) >= WORTH and takes_strips(scene)
     slow_strips = has_moving_roughness(scene) and any(
         model.has_slow_strips for model in models_up_to(scene.numerics.model)
@@ -377,8 +377,9 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
 
 
 def plot_again(arguments: Namespace) -> None:
-    """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a curve with the measured one that the
-    ``arguments`` of ``lubfric plot`` name. With ``--contact`` draw the contact at one speed again, from fields.npz."""
+    """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a curve with the
+    measured one that the ``arguments`` of ``lubfric plot`` name. With ``--contact`` draw the contact at one speed
+    again, from fields.npz."""
     if arguments.contact is not None:
         _plot_contact_again(arguments)
         return
@@ -426,8 +427,8 @@ def plot_again(arguments: Namespace) -> None:
 
 
 def _plot_unfinished_again(arguments: Namespace) -> None:
-    """Draw the solved points of the curve of an interrupted run, in a folder of its own, as the run may go on, with a line on
-    stderr that says how much of the curve is drawn."""
+    """Draw the solved points of the curve of an interrupted run, in a folder of its own, as the run may go on, with a
+    line on stderr that says how much of the curve is drawn."""
     folder = arguments.folder
     states = sorted((folder / UNFINISHED).iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
     unfinished = next(filter(None, map(studies.unfinished_curve, states)), None)
@@ -457,8 +458,8 @@ def _plot_unfinished_again(arguments: Namespace) -> None:
 
 
 def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:
-    """Return the measured curve that the ``arguments`` of a command name, for the picture of the table ``name``; None where
-    they name none. A line on stderr says which columns it is."""
+    """Return the measured curve that the ``arguments`` of a command name, for the picture of the table ``name``; None
+    where they name none. A line on stderr says which columns it is."""
     _check_measured(arguments)
     if arguments.measured is None:
         return None
@@ -479,9 +480,9 @@ def measured_of(arguments: Namespace, name: str) -> studies.Measured | None:
 
 
 def read_measured_of(arguments: Namespace, **options: Any) -> studies.Measured:
-    """Return the measured curve that the ``arguments`` of a command name, with its standard deviations and its label. ``options``:
-    the heading of what it is over, and others of `lubfric.read_measured`. --deviation is a heading, or a number for all
-    points, in percent relative to f."""
+    """Return the measured curve that the ``arguments`` of a command name, with its standard deviations and its label.
+    ``options``: the heading of what it is over, and others of `lubfric.read_measured`. --deviation is a heading, or a
+    number for all points, in percent relative to f."""
     given = arguments.deviation
     number = None if given is None else number_and_unit(given)
     deviation: str | float | None = given
@@ -521,15 +522,16 @@ def _check_measured(arguments: Namespace) -> None:
 
 
 def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
-    """Refuse the first of the options of these ``names`` that the ``arguments`` give; ``why``: what the message says of it."""
+    """Refuse the first of the options of these ``names`` that the ``arguments`` give; ``why``: what the message says of
+    it."""
     given = next((name for name in names if getattr(arguments, name) is not None), None)
     if given is not None:
         raise InputError(f"--{given.replace('_', '-')} {why}")
 
 
 def _plot_study_again(arguments: Namespace) -> None:
-    """Draw the picture of a study again; of one that is not finished, in a folder of its own, as the study may be running, with a
-    line on stderr that says how much of it is drawn."""
+    """Draw the picture of a study again; of one that is not finished, in a folder of its own, as the study may be
+    running, with a line on stderr that says how much of it is drawn."""
     of_runs = (*OF_MEASURED, "panels", "x_scale", "y_scale", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a study; omit it")
     options = _picture_options(arguments, "study")
@@ -567,8 +569,8 @@ def _plot_contact_again(arguments: Namespace) -> None:
 
 
 def _write_picture(arguments: Namespace, name: str, draw: Callable[..., Any]) -> None:
-    """Put what ``draw(path)`` draws into the folder of ``lubfric plot``, as ``name``, or as the ``arguments`` name it, in the
-    format that they say."""
+    """Put what ``draw(path)`` draws into the folder of ``lubfric plot``, as ``name``, or as the ``arguments`` name it,
+    in the format that they say."""
     folder = arguments.folder
     if arguments.name is not None:
         name = arguments.name
@@ -659,8 +661,8 @@ def _plot(
     options: PictureOptions = PictureOptions(),
     operating_point: float = math.nan,
 ) -> None:
-    """Draw the picture of the table of a curve; ``points``: those of its record; ``operating_point``: the scene's own speed
-    [m/s] or slide-roll ratio."""
+    """Draw the picture of the table of a curve; ``points``: those of its record; ``operating_point``: the scene's own
+    speed [m/s] or slide-roll ratio."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
     known = [
         [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
@@ -685,8 +687,8 @@ UNKNOWN = "sampling not known: "
 
 
 def _largest_parts(curve: studies.CurveResult) -> list[str]:
-    """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the same;
-    none for points where no input or tolerance reduces it."""
+    """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the
+    same; none for points where no input or tolerance reduces it."""
     name, _, unit, plural = curve.SWEPT
     places: dict[str, list[float]] = {}
     for value, point in zip(getattr(curve, name).tolist(), curve.points):
@@ -700,9 +702,9 @@ def _largest_parts(curve: studies.CurveResult) -> list[str]:
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
-    """Return the errors of f as text: why points have no interval, in a line for all of the same reason; at how many others there are
-    notes, and those of the least sure; at how many points too few asperity contacts carry the load; and that results were
-    accepted."""
+    """Return the errors of f as text: why points have no interval, in a line for all of the same reason; at how many
+    others there are notes, and those of the least sure; at how many points too few asperity contacts carry the load;
+    and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes and math.isfinite(point[1].sampling)]
@@ -711,7 +713,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         if known.notes and not math.isfinite(known.sampling):
             unknown.setdefault(known.notes[0], []).append((value, known.notes))
     lines = [
-        f"no 95 % interval of f {at_values([value for value, _ in same], unit, plural)}: {_common_notes(same).removeprefix(UNKNOWN)}"
+        f"no 95 % interval of f {at_values([value for value, _ in same], unit, plural)}: "
+        f"{_common_notes(same).removeprefix(UNKNOWN)}"
         for same in unknown.values()
     ]
     few = [value for value, known in points if known.has_few_contacts]
@@ -729,7 +732,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
 
 
 def _common_notes(points: list[tuple[float, tuple[str, ...]]]) -> str:
-    """Return the notes that all ``points``, pairs of a value and its notes, have; those of one point alone are in result.json."""
+    """Return the notes that all ``points``, pairs of a value and its notes, have; those of one point alone are in
+    result.json."""
     (_, first), *others = points
     return "; ".join(note for note in first if all(note in notes for _, notes in others))
 
@@ -769,14 +773,15 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
     added = [f"{speed:.4g}" for speed in solved[len(requested) :]]
     if added:
         say(
-            f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, whose fields are drawn (--fields)"
+            f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, whose fields are drawn "
+            "(--fields)"
         )
     return (sorted(solved) if requested == sorted(requested) else solved), with_fields
 
 
 def _say_operating_point(scene: Scene, requested: list[float], *, are_of_command: bool) -> None:
-    """Say whether the scene's own speed is solved beside the ``requested`` speeds [m/s], or why it is not; nothing where it is
-    one of them. ``are_of_command``: the speeds are those of --speeds."""
+    """Say whether the scene's own speed is solved beside the ``requested`` speeds [m/s], or why it is not; nothing
+    where it is one of them. ``are_of_command``: the speeds are those of --speeds."""
     own = scene.motion.entrainment_speed
     in_scene = scene.motion.speeds
     if is_among(own, requested):
@@ -852,8 +857,8 @@ def parse_ratios(text: str | None) -> list[float]:
 
 
 def _range(option: str, words: list[str], unit: str, most: float, *, linear: bool) -> list[float]:
-    """Return the values of a range of ``words`` low, high and count, in equal steps or geometric. Raise `InputError` that
-    says what is wrong with it, and what to write."""
+    """Return the values of a range of ``words`` low, high and count, in equal steps or geometric. Raise `InputError`
+    that says what is wrong with it, and what to write."""
     text = validate.shown(":".join(words))
     example = "0:0.5:11" if linear else "0.001:1:13"
     if len(words) != 3:
@@ -889,8 +894,8 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
 
 
 def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_ratios: bool = False) -> Callable[..., Any]:
-    """Return what says how a point of ``scene`` ended; ``place``: the template of its place on the curve. ``is_total_known``:
-    whether the number of points is; ``has_ratios``: the points differ in their slide-roll ratio."""
+    """Return what says how a point of ``scene`` ended; ``place``: the template of its place on the curve.
+    ``is_total_known``: whether the number of points is; ``has_ratios``: the points differ in their slide-roll ratio."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
         number = f"{done:>{len(str(total))}}/{total}" if is_total_known else str(done)

@@ -103,8 +103,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
 
 def _time_left(scene: Scene, run: RunEstimate) -> TimeLeft:
-    """Return the time left of the ``run`` of a scene: its parts are the work before the first step, and the steps to each
-    output time [s]."""
+    """Return the time left of the ``run`` of a scene: its parts are the work before the first step, and the steps to
+    each output time [s]."""
     assert scene.transient is not None
     times = scene.transient.output_times.tolist()
     ends = times if times[0] > 0 else times[1:]
@@ -123,8 +123,8 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *,
 
 
 def _table(result: TransientResult) -> bytes:
-    """Return history.csv. Where the surfaces are at rest, there is no f, and the friction force of the asperity contacts may have
-    any value up to that of the first slip: these cells are empty."""
+    """Return history.csv. Where the surfaces are at rest, there is no f, and the friction force of the asperity
+    contacts may have any value up to that of the first slip: these cells are empty."""
     moving = in_motion(result.columns).tolist()
     columns: dict[str, np.ndarray | list[Any]] = {heading(name): result.columns[name] for name in OF_MOMENT}
     for name in ("coefficient", "interval_low", "interval_high", "friction_force", "boundary_force"):

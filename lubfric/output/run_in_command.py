@@ -1,4 +1,5 @@
-"""``lubfric run-in``: the surface of a scene after running-in, as a map, a scene that takes it, a table and a report."""
+"""``lubfric run-in``: the surface of a scene after running-in, as a map, a scene that takes it, a table and a
+report."""
 
 import io
 import json
@@ -98,7 +99,8 @@ def answer_lines(result: RunIn) -> list[str]:
         )
     else:
         lines.append(
-            f"The asperities still yield, by {worded(float(result.deepest[-1]), 'm')}, in pass {passes}. Give more --passes."
+            f"The asperities still yield, by {worded(float(result.deepest[-1]), 'm')}, in pass {passes}. Give more "
+            "--passes."
         )
     wear = result.wear
     if wear is not None:
@@ -216,8 +218,8 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
 
 
 def _table(result: RunIn) -> str:
-    """Return the table of the page: the parameters of the maps, each length in one unit, and with wear what changes over
-    the distance."""
+    """Return the table of the page: the parameters of the maps, each length in one unit, and with wear what changes
+    over the distance."""
     columns = result.columns()
     wear = result.wear
     states = [*columns["state"][:2]]

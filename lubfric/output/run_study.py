@@ -54,8 +54,8 @@ if TYPE_CHECKING:
 
 
 def run_study(arguments: Namespace) -> None:
-    """Plan, solve, write study.csv, study.png, report.html and references.bib (and study.nc, study.parquet), and report the
-    smallest and the largest f and power loss, and which points miss a tolerance."""
+    """Plan, solve, write study.csv, study.png, report.html and references.bib (and study.nc, study.parquet), and report
+    the smallest and the largest f and power loss, and which points miss a tolerance."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     if arguments.cluster is not None and workers > 1:
         raise InputError("--cluster and --workers both say who solves; give one of them")
@@ -153,8 +153,8 @@ def _progress(plan: studies.StudyPlan, shown: ProgressLine) -> Callable[[int, in
 
 
 def _point_reports(plan: studies.StudyPlan, begun: float, time_left: TimeLeft | None = None) -> Callable[..., None]:
-    """Return what writes f and the power loss of each point when it is solved, with the time left (without ``time_left`` by the
-    points so far): of each one in a study of up to `MOST_LINES` points, else of one a second."""
+    """Return what writes f and the power loss of each point when it is solved, with the time left (without
+    ``time_left`` by the points so far): of each one in a study of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
     # when the last points came together, as a process hands over several, and how many were done then
@@ -223,7 +223,8 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
 
 
 def run_fit(arguments: Namespace) -> None:
-    """Say what it will cost, search, and write fitted.toml, fit.png, report.html, references.bib and, last, fit.json."""
+    """Say what it will cost, search, and write fitted.toml, fit.png, report.html, references.bib and, last,
+    fit.json."""
     for name in ("measured", "coefficient"):
         if getattr(arguments, name) is None:
             raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")

@@ -20,8 +20,8 @@ ERRORS_OF_F = (Assumption.NUMERICAL_ERROR, Assumption.MODEL_FORM_ERROR)
 
 
 def status_kind(*, failed: bool, inexact: int) -> str:
-    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and whether (not 0) f is ``inexact``:
-    an order of magnitude, or beyond a tolerance."""
+    """Return the kind of a status, a class of the style sheet: whether points ``failed``, and whether (not 0) f is
+    ``inexact``: an order of magnitude, or beyond a tolerance."""
     if failed:
         return "failed"
     return "inexact" if inexact else ""
@@ -60,8 +60,8 @@ class StatusOfPoints:
         return status_kind(failed=failed, inexact=self.largely_inexact + len(self.exceeded))
 
     def in_words(self, plural: str, place: Callable[[int], str]) -> str:
-        """Return in sentences that all points are solved, and which tolerances they miss. ``plural``: what they are called;
-        ``place``: gives where a row lies, as "at point 3"."""
+        """Return in sentences that all points are solved, and which tolerances they miss. ``plural``: what they are
+        called; ``place``: gives where a row lies, as "at point 3"."""
         total = len(self.scenes)
         head = "The point is solved." if total == 1 else f"All {total} {plural} are solved."
         if self.largely_inexact == 0:
@@ -89,8 +89,8 @@ def status_of_study(result: StudyResult) -> StatusOfPoints:
 
 
 def curve_in_words(scene: Scene, curve: CurveResult) -> str:
-    """Return in sentences whether all points of ``curve`` of ``scene`` were solved, and which of its tolerances they miss; the
-    first failure with its message."""
+    """Return in sentences whether all points of ``curve`` of ``scene`` were solved, and which of its tolerances they
+    miss; the first failure with its message."""
     plural = curve.SWEPT[3]
     if not curve.errors:
         return status_of_curve(scene, curve).in_words(plural, lambda index: place_on_curve(curve, index))
@@ -104,7 +104,8 @@ def curve_in_words(scene: Scene, curve: CurveResult) -> str:
 
 
 def study_in_words(result: StudyResult) -> str:
-    """Return in sentences how many points of a study are solved, and which tolerances they miss, or the most frequent failures."""
+    """Return in sentences how many points of a study are solved, and which tolerances they miss, or the most frequent
+    failures."""
     if not result.failed:
         return status_of_study(result).in_words("points", lambda row: f"at point {row + 1}")
     failed = Counter(result.failures)
@@ -114,21 +115,21 @@ def study_in_words(result: StudyResult) -> str:
 
 
 def orders_of_magnitude(errors: Iterable[float]) -> list[str]:
-    """Return at how many solved points, with these relative numerical ``errors`` of f, f is known to an order of magnitude only,
-    in a sentence; none where there are none."""
+    """Return at how many solved points, with these relative numerical ``errors`` of f, f is known to an order of
+    magnitude only, in a sentence; none where there are none."""
     are_large = [error > ERROR_OF_ORDER_OF_MAGNITUDE for error in errors]
     if not any(are_large):
         return []
     where = "The" if len(are_large) == 1 else f"At {sum(are_large)} of {len(are_large)} points the"
     return [
-        f"{where} numerical error of f is above {percent(ERROR_OF_ORDER_OF_MAGNITUDE)}, so f is only an order of magnitude (see the "
-        "warnings)."
+        f"{where} numerical error of f is above {percent(ERROR_OF_ORDER_OF_MAGNITUDE)}, so f is only an order of "
+        "magnitude (see the warnings)."
     ]
 
 
 def shortfalls(exceeded: Sequence[MissedTolerance], unknown: int, total: int, place: Callable[[int], str]) -> list[str]:
-    """Return which tolerances of ``total`` solved points are ``exceeded`` and where (``place`` of a row), and how many points have an
-    ``unknown`` interval, in sentences."""
+    """Return which tolerances of ``total`` solved points are ``exceeded`` and where (``place`` of a row), and how many
+    points have an ``unknown`` interval, in sentences."""
     sentences = [each.in_words(total, place) for each in exceeded]
     if exceeded and not unknown:
         sentences.append(f"The interval of f includes {'this error' if len(exceeded) == 1 else 'these errors'}.")
@@ -147,6 +148,7 @@ def missed_by_run(result: TransientResult) -> list[str]:
             continue
         worst = f"{float(f'{violation.value:.2g}'):g} {violation.unit}"
         sentences.append(
-            f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} {violation.unit}, up to {worst}."
+            f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} "
+            f"{violation.unit}, up to {worst}."
         )
     return sentences

@@ -23,12 +23,14 @@ from ..units import converted, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
 from .study_points import effects_at, error_in_words, parts_of_error
 
-# Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms each.
+# Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms
+# each.
 MOST_CHECKED_EFFECTS = 500
 # What f is at a point where nothing slides, and why the power loss there is not f times a speed.
 IN_PURE_ROLLING = (
-    "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling resistance of "
-    "both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, cancels"
+    "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling "
+    "resistance of both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, "
+    "cancels"
 )
 # What the mean power loss of a path of contact is.
 OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
@@ -40,8 +42,9 @@ LEAST_STATED_SHARE = 1e-3
 
 
 def answer_lines(result: StudyResult) -> list[str]:
-    """Return the answer of a study in sentences: what the inputs do to f, the best design at the operating conditions, of operating
-    points the means over the cycle, and the smallest and the largest f and power loss with intervals and places."""
+    """Return the answer of a study in sentences: what the inputs do to f, the best design at the operating conditions,
+    of operating points the means over the cycle, and the smallest and the largest f and power loss with intervals and
+    places."""
     rows = [*_main_effects_line(result), *best_lines(result)]
     if result.paired:
         rows += _mean_lines(result)
@@ -80,8 +83,8 @@ def _main_effects_line(result: StudyResult) -> list[str]:
         ", with its range within the errors of f at 95 %" if np.isfinite([*effects.values()][0].interval).all() else ""
     )
     return [
-        f"Part of the variance of ln f that each input alone explains{within}: {'; '.join(words)}. The remaining part comes "
-        "from combinations of inputs."
+        f"Part of the variance of ln f that each input alone explains{within}: {'; '.join(words)}. The remaining part "
+        "comes from combinations of inputs."
     ]
 
 
@@ -137,8 +140,8 @@ def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
 
 
 def _alpha_line(result: StudyResult) -> list[str]:
-    """Return at which points the range of an estimated pressure-viscosity coefficient is not in the interval of f, and by how much
-    it changes f, in a sentence; none where there are no such points."""
+    """Return at which points the range of an estimated pressure-viscosity coefficient is not in the interval of f, and
+    by how much it changes f, in a sentence; none where there are no such points."""
     known = np.flatnonzero(np.isfinite(columns_of_study(result)["coefficient"]))
     rows = known[:: max(1, -(-known.size // MOST_CHECKED_EFFECTS))]
     effects = {row + 1: each for row, each in zip(rows.tolist(), effects_at(result, rows.tolist()))}
@@ -155,8 +158,8 @@ def _rolling_line(result: StudyResult) -> list[str]:
         return []
     where = numbers_in_words(numbers.tolist(), int(solved.sum()))
     return [
-        f"{where} the surfaces hardly slide, and f is that of rolling resistance: it does not count in the smallest f, in means of f "
-        "and in the best designs; the power loss counts at all points."
+        f"{where} the surfaces hardly slide, and f is that of rolling resistance: it does not count in the smallest "
+        "f, in means of f and in the best designs; the power loss counts at all points."
     ]
 
 

@@ -59,8 +59,8 @@ def common_inputs(result: StudyResult | StudyPlan) -> str:
 
 
 def _scenes_at_ends(plan: StudyPlan) -> list[Scene]:
-    """Return the scene of the first point of a ``plan``, and those at the ends of the range of each number that is varied:
-    what follows from it, as the viscosity from a temperature, differs there."""
+    """Return the scene of the first point of a ``plan``, and those at the ends of the range of each number that is
+    varied: what follows from it, as the viscosity from a temperature, differs there."""
     first = {axis.name: axis.values[0] for axis in plan.axes}
     corners = [first]
     for axis in plan.axes:

@@ -26,26 +26,29 @@ PAIRED_HEIGHTS = (3.0, 3.0)
 # Height of the axes of a picture, at least [inch]. Chosen by looking at the figures.
 LEAST_PANEL = 1.3
 
-# Points up to which they are numbered where more inputs than `MOST_PANELS` are varied. A choice, by looking at the figures.
+# Points up to which they are numbered where more inputs than `MOST_PANELS` are varied. A choice, by looking at the
+# figures.
 MANY_POINTS = 40
 
-# Lines of what two or more things vary, and lines coloured by one thing, that a picture tells apart, at most. Choices, by
-# looking at the figures.
+# Lines of what two or more things vary, and lines coloured by one thing, that a picture tells apart, at most. Choices,
+# by looking at the figures.
 MOST_STYLED_LINES = 16
 MOST_SHADED_LINES = 40
 
-# Operating points without a position from which on f is drawn over what is varied: their numbers say nothing. A choice: fewer
-# are looked up in the table.
+# Operating points without a position from which on f is drawn over what is varied: their numbers say nothing. A choice:
+# fewer are looked up in the table.
 MANY_NUMBERED = 20
 
-# Inputs of few points up to which each has a panel; with more the points are numbered. A choice, by looking at the figures.
+# Inputs of few points up to which each has a panel; with more the points are numbered. A choice, by looking at the
+# figures.
 MOST_PANELS = 8
 
 
 @figures.styled
 def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions = PictureOptions()) -> None:
-    """Draw what a study found: operating points with their power loss; else f over the speed, or over a key that is varied, a
-    line for each combination of the others; where no lines tell these apart, the effect of each input on f."""
+    """Draw what a study found: operating points with their power loss; else f over the speed, or over a key that is
+    varied, a line for each combination of the others; where no lines tell these apart, the effect of each input on
+    f."""
     title = _title(result) if options.has_title else ""
     if result.missing:
         title = "\n".join(filter(None, (title, f"not finished: {solved_so_far(result)}")))
@@ -99,8 +102,8 @@ def solved_so_far(result: studies.StudyResult) -> str:
 
 
 def _key_of_axis(result: studies.StudyResult) -> str:
-    """Return the key along the axis of a picture of lines: the speed, or of what is varied in all combinations the number with
-    the most values, else the text with the most; "" where no lines tell apart what is varied."""
+    """Return the key along the axis of a picture of lines: the speed, or of what is varied in all combinations the
+    number with the most values, else the text with the most; "" where no lines tell apart what is varied."""
     if result.paired:
         return ""
     lengths = dict(zip(result.dims, result.status.shape))
@@ -138,8 +141,8 @@ def _is_number(values: np.ndarray) -> bool:
 
 
 def _is_sample(result: studies.StudyResult) -> bool:
-    """Return whether a study of operating points is over no position, angle or time, and has so many of them that their number
-    says nothing."""
+    """Return whether a study of operating points is over no position, angle or time, and has so many of them that their
+    number says nothing."""
     is_ordered = any(name in result.coords for name in studies.ORDERED_BY)
     return not is_ordered and result.status.shape[-1] > MANY_NUMBERED
 

@@ -1,4 +1,5 @@
-"""The points of a study: the scene of each, the effects that are not modelled there, and the parts of the error of f."""
+"""The points of a study: the scene of each, the effects that are not modelled there, and the parts of the error of
+f."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -64,8 +65,8 @@ def parts_of_error(
 ) -> dict[str, PartOfError]:
     """Return the parts of the error of f at an ``index`` of the ``columns``, by what they are called.
 
-    Columns hold no text, so the inputs that are not given, whose range changes f, are those of the ``scenes`` there; where
-    f does not depend on them, they are no part.
+    Columns hold no text, so the inputs that are not given, whose range changes f, are those of the ``scenes`` there;
+    where f does not depend on them, they are no part.
     """
 
     def at_index(name: str) -> FloatArray:
@@ -86,8 +87,8 @@ def parts_of_error(
 
 
 def error_in_words(error: PartOfError, place: int, f: float) -> str:
-    """Return a relative ``error`` of ``f`` at a ``place`` of its arrays as text, with both sides where they differ; in f itself
-    where that is near 0."""
+    """Return a relative ``error`` of ``f`` at a ``place`` of its arrays as text, with both sides where they differ; in
+    f itself where that is near 0."""
     largest, towards, away = (float(values[place]) for values in (error.largest, error.towards, error.away))
     if is_near_zero(f, largest):
         return f"{sides_in_f((towards, away), largest, f)} in f"

@@ -35,7 +35,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     about = (
         "no. is the row of study.csv, which has all numbers."
         if rows == size
-        else f"About {rows} of {size} points, evenly spread, and those of the answer. No. is the row of study.csv, which has all."
+        else f"About {rows} of {size} points, evenly spread, and those of the answer. No. is the row of study.csv, "
+        "which has all."
     )
     about += (
         " The last column of this table has the numbers of the warnings above."

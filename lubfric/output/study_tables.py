@@ -36,7 +36,8 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     "min_film": None,
     ASPERITY_LOAD_RATIO: None,
 }
-# Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their interval.
+# Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their
+# interval.
 UNBROKEN = ' style="white-space: nowrap"'
 TWO_LINES = ' style="min-width: 9em"'
 # Digits of what is varied, which is exact. A choice: less makes neighbours alike.
@@ -47,9 +48,9 @@ DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
 # Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
 RISE_NOTE = (
-    "The temperature rises have no stated error. The deterministic and the quick model compute them for one strip at one moment. The "
-    "rise of the film varies up to threefold between strips and moments, so steps from point to point are partly scatter. f includes "
-    "the effect of heat, and the interval of f its error."
+    "The temperature rises have no stated error. The deterministic and the quick model compute them for one strip at "
+    "one moment. The rise of the film varies up to threefold between strips and moments, so steps from point to point "
+    "are partly scatter. f includes the effect of heat, and the interval of f its error."
 )
 # Columns of a table of operating points from which others follow, and these.
 DERIVED_COLUMNS = {
@@ -60,8 +61,8 @@ DERIVED_COLUMNS = {
 
 
 def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredTexts]) -> str:
-    """Return the points of a study with what is varied, the numbers `REPORTED_NUMBERS`, each column in one unit, and the numbers
-    of their ``warnings`` in the report."""
+    """Return the points of a study with what is varied, the numbers `REPORTED_NUMBERS`, each column in one unit, and
+    the numbers of their ``warnings`` in the report."""
     columns = columns_of_study(result)
     columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
     count = len(next(iter(columns.values())))
@@ -110,7 +111,8 @@ def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
 
 
 def _friction_and_interval(columns: dict[str, np.ndarray], picked: np.ndarray) -> tuple[list[str], list[str]]:
-    """Return f at the points that are ``picked`` and its 95 % intervals, each in as many digits as the interval shows."""
+    """Return f at the points that are ``picked`` and its 95 % intervals, each in as many digits as the interval
+    shows."""
     values = columns["coefficient"][picked].tolist()
     low, high = (columns[end][picked].tolist() for end in INTERVAL_COLUMNS["coefficient"])
     rows = list(zip(values, low, high))
@@ -163,7 +165,8 @@ def _derived(result: StudyResult) -> list[str]:
 
 
 def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
-    """Return which of the points in ``columns`` a table of about so many ``rows`` shows: some evenly, and those of the answer."""
+    """Return which of the points in ``columns`` a table of about so many ``rows`` shows: some evenly, and those of the
+    answer."""
     count = len(next(iter(columns.values())))
     evenly = np.linspace(0, count - 1, rows).round().astype(int)
     known = [columns[name] for name in ANSWERED if np.isfinite(columns[name]).any()]
@@ -172,8 +175,8 @@ def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
 
 
 def folded_details(result: StudyResult, rows: int) -> str:
-    """Return a folded table of the points with what follows from other columns, the peak Hertz pressure, temperatures, and
-    the parts of the error of f."""
+    """Return a folded table of the points with what follows from other columns, the peak Hertz pressure, temperatures,
+    and the parts of the error of f."""
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = scene_of_each(result)
@@ -204,8 +207,8 @@ def folded_details(result: StudyResult, rows: int) -> str:
 
 
 def why_no_rises(result: StudyResult) -> list[str]:
-    """Return at which solved points of a study the temperature rises are not computed, why, and how to get them, a sentence or
-    two for each reason."""
+    """Return at which solved points of a study the temperature rises are not computed, why, and how to get them, a
+    sentence or two for each reason."""
     columns = columns_of_study(result)
     missing = np.isfinite(columns["coefficient"]) & np.isnan(columns["flash_temperature_rise"])
     scenes = scene_of_each(result)
@@ -214,14 +217,15 @@ def why_no_rises(result: StudyResult) -> list[str]:
         reasons.setdefault(_why_no_rise(scenes[i], float(columns["speed"][i])), []).append(i + 1)
     solved = np.flatnonzero(np.isfinite(columns["coefficient"])) + 1
     return [
-        f"{'At all points' if len(numbers) == len(solved) > 1 else numbers_in_words(numbers, len(missing))} the temperature rises are "
-        f"not computed: {reason}."
+        f"{'At all points' if len(numbers) == len(solved) > 1 else numbers_in_words(numbers, len(missing))} the "
+        f"temperature rises are not computed: {reason}."
         for reason, numbers in reasons.items()
     ]
 
 
 def _why_no_rise(scene: Scene, speed: float) -> str:
-    """Return why the temperature rises of a point of ``scene`` at ``speed`` [m/s] are not computed, and how to get them."""
+    """Return why the temperature rises of a point of ``scene`` at ``speed`` [m/s] are not computed, and how to get
+    them."""
     if scene.numerics.heat == "off":
         return "numerics.heat = 'off' neglects the heat; 'on' computes them"
     if not scene.lubricant.heats:
@@ -233,8 +237,8 @@ def _why_no_rise(scene: Scene, speed: float) -> str:
         return "nothing slides there, so no heat of sliding arises"
     if scene.numerics.heat == "auto":
         return (
-            "numerics.heat = 'auto' computes them only where the heat of film and surfaces changes f by more than its share of "
-            f"numerics.tolerance, {percent(budget.HEAT * scene.numerics.tolerance)}; numerics.heat = 'on' computes them at all points "
-            "that slide"
+            "numerics.heat = 'auto' computes them only where the heat of film and surfaces changes f by more than its "
+            f"share of numerics.tolerance, {percent(budget.HEAT * scene.numerics.tolerance)}; numerics.heat = 'on' "
+            "computes them at all points that slide"
         )
     return "the film is outside the range of the formulas of its heat"

@@ -16,15 +16,15 @@ OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR, Assumpti
 
 
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
-    """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which are of no
-    point, then the assumptions that do not hold somewhere."""
+    """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which
+    are of no point, then the assumptions that do not hold somewhere."""
     warnings = [GatheredTexts(statement=sentence(note)) for note in result.plan.notes]
     return [*warnings, *(each for each in result.gathered if not each.is_note)]
 
 
 def counts_of_warnings(result: StudyResult) -> str:
-    """Return at how many points of a study there are warnings and notes, as its tables have them, and what these are; "" where
-    there are none."""
+    """Return at how many points of a study there are warnings and notes, as its tables have them, and what these are;
+    "" where there are none."""
     noted = {number for each in result.gathered if each.is_note for number in each.numbers}
     if not result.with_warnings and not noted:
         return ""
@@ -36,7 +36,8 @@ def counts_of_warnings(result: StudyResult) -> str:
 
 
 def warning_lines(result: StudyResult) -> list[str]:
-    """Return how many points have warnings and notes, and each reason of a warning with its points and the worst value, in a line each."""
+    """Return how many points have warnings and notes, and each reason of a warning with its points and the worst value,
+    in a line each."""
     counts = counts_of_warnings(result)
     if not counts:
         return []
@@ -46,7 +47,8 @@ def warning_lines(result: StudyResult) -> list[str]:
 
 
 def tolerance_lines(result: StudyResult) -> list[str]:
-    """Return which points miss the tolerance of the numerical error, of the sampling error, and of the model-form error."""
+    """Return which points miss the tolerance of the numerical error, of the sampling error, and of the model-form
+    error."""
     of_tolerances = [
         each
         for each in result.gathered
@@ -56,8 +58,8 @@ def tolerance_lines(result: StudyResult) -> list[str]:
 
 
 def why_no_intervals(result: StudyResult) -> str:
-    """Return at which points of a study the interval of f is not known, and, of a patch, how long it is there and at the other
-    points; "" where all intervals are known."""
+    """Return at which points of a study the interval of f is not known, and, of a patch, how long it is there and at
+    the other points; "" where all intervals are known."""
     columns = columns_of_study(result)
     solved = np.isfinite(columns["coefficient"])
     unknown = solved & np.isnan(columns["interval_low"])

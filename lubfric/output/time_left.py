@@ -10,17 +10,20 @@ from typing import Any
 from .._base.processor_time import processor_time
 from ..studies import in_words
 
-# Time for which a process is taken to do a second of work in a second [s]. A choice: less makes the first estimates jump.
+# Time for which a process is taken to do a second of work in a second [s]. A choice: less makes the first estimates
+# jump.
 USUAL_SECONDS = 5.0
 
 
 class TimeLeft:
-    """Use as ``left = TimeLeft(expected, processes)``, then ``left.end(point)`` when a point ends, and ``left.seconds``.
+    """Use as ``left = TimeLeft(expected, processes)``, then ``left.end(point)`` when a point ends, and
+    ``left.seconds``.
 
-    ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``: that
-    solve them. What points take is the processor time of one process, whose ratio to the time that passes is measured; of
-    several it is the time that passes. The ratio of what the points that ended took to their estimates, with one more that
-    takes what is estimated, corrects the estimates of the others; those that are being solved raise it when they take more.
+    ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``:
+    that solve them. What points take is the processor time of one process, whose ratio to the time that passes is
+    measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates,
+    with one more that takes what is estimated, corrects the estimates of the others; those that are being solved raise
+    it when they take more.
     """
 
     def __init__(
@@ -76,7 +79,8 @@ class TimeLeft:
 
     @property
     def seconds(self) -> float | None:
-        """The time left [s]; None where more is spent than is estimated of all points, by what those that ended took."""
+        """The time left [s]; None where more is spent than is estimated of all points, by what those that ended
+        took."""
         with self._lock:
             return self._seconds()
 

@@ -26,7 +26,8 @@ FORCING = 1e-2
 
 @dataclass(frozen=True, kw_only=True)
 class DifferentialSolution:
-    """Pressures and films on ``mesh`` with their `DifferentialTerms`, residuals of `measure`, and the number of banded solves."""
+    """Pressures and films on ``mesh`` with their `DifferentialTerms`, residuals of `measure`, and the number of banded
+    solves."""
 
     mesh: Mesh
     P: np.ndarray
@@ -41,9 +42,9 @@ class DifferentialSolution:
 def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Callable[..., Any] | None:
     """Return the equations with near weights, factorised; None if the matrix is singular.
 
-    The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the conditions
-    at the ends. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are a border of
-    the banded matrix.
+    The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the
+    conditions at the ends. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are
+    a border of the banded matrix.
     """
     from scipy.linalg.lapack import dgbtrf, dgbtrs
 

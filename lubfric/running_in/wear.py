@@ -1,8 +1,9 @@
 """Wear of a rough surface that passes through its lubricated contact, step by step: `worn_in`.
 
-At each step film and contact share the load again (Eq. 8, `lubfric.models.load_sharing`), on windows of the map that lie
-a Hertz strip apart. The asperity pressure of that balance wears the map by Archard's law (`lubfric.contact.wear`). The
-steps are implicit: their pressure is that at the end of the step. They are as long as the asperity load lets them be.
+At each step film and contact share the load again (Eq. 8, `lubfric.models.load_sharing`), on windows of the map that
+lie a Hertz strip apart. The asperity pressure of that balance wears the map by Archard's law (`lubfric.contact.wear`).
+The steps are implicit: their pressure is that at the end of the step. They are as long as the asperity load lets them
+be.
 
 The other body wears as well, by its own hardness. Its points meet those of the rough body in ever other pairs, so that
 it is lowered evenly, and keeps its shape.
@@ -79,7 +80,8 @@ class Wear(FrozenArrays, Shown):
     coefficient : friction coefficient at the speed of the scene [-], (n,)
     interval : its 95 % interval (lowest, highest) [-], (n, 2); NaN where an end is not known
     lift_off_speed : speed [m/s] at which the asperities carry 1 % of the load, (n,); NaN where none was found
-    lift_off_interval : its 95 % interval by the scatter of the windows of the map [m/s], (n, 2); NaN for fewer than four
+    lift_off_interval : its 95 % interval by the scatter of the windows of the map [m/s], (n, 2); NaN for fewer than
+        four
     volume_error : relative error of the worn volume by the length of the steps [-]
     steps : number of steps
     stopped : why the run ended
@@ -105,8 +107,8 @@ class Wear(FrozenArrays, Shown):
     notes: tuple[str, ...] = ()
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Draw Sq, lift-off speed and asperity load ratio over the distance, each over its first value, on ``ax`` or new axes.
-        Without asperity load there is no such ratio to draw."""
+        """Draw Sq, lift-off speed and asperity load ratio over the distance, each over its first value, on ``ax`` or
+        new axes. Without asperity load there is no such ratio to draw."""
         axes = figures.axes_or_new(ax)
         first = self.lift_off_speed[0]
         unit = unit_for(self.distance[1:].tolist(), "m")
@@ -234,11 +236,12 @@ class _WearProgress:
 
 
 def estimated_wear(scene: Scene, surface: Surface, distance: float, coefficient: float, hardness: float) -> float:
-    """Return the estimated processor seconds of `worn_in` on a map like ``surface`` over a ``distance`` [m]: the balances of
-    all its windows, and f of each record by the scene's model. ``coefficient``, ``hardness`` [Pa]: as there.
+    """Return the estimated processor seconds of `worn_in` on a map like ``surface`` over a ``distance`` [m]: the
+    balances of all its windows, and f of each record by the scene's model. ``coefficient``, ``hardness`` [Pa]: as
+    there.
 
-    A step changes the asperity load by `CHANGE`, for which it wears about as large a part of Sq, and there is one to each
-    record at least.
+    A step changes the asperity load by `CHANGE`, for which it wears about as large a part of Sq, and there is one to
+    each record at least.
     """
     rig = _rig(scene, surface)
     one = BALANCE_SECONDS + BALANCE_CELL_SECONDS * math.prod(rig.stack.shape)

@@ -1,8 +1,8 @@
 """How the tolerance on the friction coefficient is divided, and how far a share may loosen or tighten a solver.
 
-These numbers are only here; docs/tolerances.md quotes them. The shares are upper bounds, rarely reached together. An error
-of the film reaches f by a factor (`lubfric.models.load_sharing.Response.per_film`), by which the tolerance of the film
-is divided.
+These numbers are only here; docs/tolerances.md quotes them. The shares are upper bounds, rarely reached together. An
+error of the film reaches f by a factor (`lubfric.models.load_sharing.Response.per_film`), by which the tolerance of the
+film is divided.
 """
 
 # Shares of the tolerance on f. Choices: a larger one leaves less to the others, a smaller one takes more work.

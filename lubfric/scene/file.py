@@ -47,8 +47,8 @@ TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, an
 }
 SCENES = resources.files(__package__) / "scenes"
 
-# Entry of a scene file with options of ``lubfric run`` that no key of a scene holds, and these. They change no number of a
-# point: a `Scene` has none.
+# Entry of a scene file with options of ``lubfric run`` that no key of a scene holds, and these. They change no number
+# of a point: a `Scene` has none.
 OPTIONS_KEY = "options"
 OPTIONS_IN_FILES = ("ratios", "speeds", "fields")
 
@@ -110,7 +110,8 @@ def options_of(source: str) -> dict[str, str]:
 
 
 def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
-    """Return the tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
+    """Return the tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be
+    read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
         if size > MOST_SCENE_BYTES:

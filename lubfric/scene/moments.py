@@ -17,8 +17,8 @@ SAMPLED_TIMES = 257
 
 @dataclass(frozen=True, kw_only=True)
 class LongestContact:
-    """The bodies of a scene where their contact is longest along the motion: ``bodies`` with the load and the radius of that
-    moment, and its ``time`` [s]; None of a scene without a ``transient``."""
+    """The bodies of a scene where their contact is longest along the motion: ``bodies`` with the load and the radius of
+    that moment, and its ``time`` [s]; None of a scene without a ``transient``."""
 
     bodies: Bodies
     time: float | None = None
@@ -34,8 +34,8 @@ def sampled_times(scene: Scene) -> list[float]:
 
 
 def longest_contact(scene: Scene, rise: float = 0.0) -> LongestContact:
-    """Return the longest contact of ``scene`` at any time. It ends where an undeformed cylinder, resting on the ends of the
-    Hertz strip, has risen by ``rise`` [m], at x² = b² + 2 R ``rise``; with 0 it is the Hertz strip."""
+    """Return the longest contact of ``scene`` at any time. It ends where an undeformed cylinder, resting on the ends of
+    the Hertz strip, has risen by ``rise`` [m], at x² = b² + 2 R ``rise``; with 0 it is the Hertz strip."""
     bodies = scene.bodies
     transient = scene.transient
     if transient is None or transient.load is None and transient.radius is None:

@@ -50,8 +50,9 @@ MOST_RATIO = 2.0  # simple sliding, which is usual
 # Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
 # smaller one may have been written with a unit, which must not be questioned.
 NO_ROUGHNESS = 1e-3
-# Times the usual range above it, and below it, from which a plain number that is usual in another unit is refused, since
-# it was meant in that. Not measured: a convention. Light loads of microscopic contacts are further below than others.
+# Times the usual range above it, and below it, from which a plain number that is usual in another unit is refused,
+# since it was meant in that. Not measured: a convention. Light loads of microscopic contacts are further below than
+# others.
 FAR_ABOVE = 10.0
 FAR_BELOW = 1000.0
 # Key of the radii of both bodies.
@@ -94,8 +95,8 @@ class UnusualValue:
 
 
 def slip(name: str, value: Any) -> str | None:
-    """Return the question what ``value`` of the key ``name`` (section.key), a number in its unit or text with a unit, was
-    meant to be; of a list, of the first part that is unusual. None: the value is usual; "": nothing fits."""
+    """Return the question what ``value`` of the key ``name`` (section.key), a number in its unit or text with a unit,
+    was meant to be; of a list, of the first part that is unusual. None: the value is usual; "": nothing fits."""
     parts = value if isinstance(value, (list, tuple)) else (value,)
     return next((question for part in parts if (question := _question(name, part)) is not None), None)
 
@@ -150,8 +151,8 @@ def likely_unit(name: str, value: float, *, is_text: bool = False) -> str:
 
 def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
     """Return the values of a scene that are outside their usual range, or of a doubtful convention: those that the user
-    wrote by the keys that he wrote, then those that follow from others. A slide-roll ratio that follows from speeds is in no
-    doubtful unit, whatever its value."""
+    wrote by the keys that he wrote, then those that follow from others. A slide-roll ratio that follows from speeds is
+    in no doubtful unit, whatever its value."""
     unusual = [_of_convention(key, written) or _unusual(key, written) for key, written in scene.doubtful]
     stated = {name for key, _ in scene.doubtful for name in fields_of_key(key)} | {SLIDE_ROLL_RATIO_KEY}
     for name in KEYS:
@@ -167,8 +168,8 @@ def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
 
 
 def _of_duration(plan: Transient | None) -> list[UnusualValue]:
-    """Return that a run in time shows next to nothing of a table or period, or far more periods than are needed: a time is
-    likely in another unit."""
+    """Return that a run in time shows next to nothing of a table or period, or far more periods than are needed: a time
+    is likely in another unit."""
     if plan is None:
         return []
     duration = worded(plan.duration, "s")
@@ -224,8 +225,8 @@ def _of_convention(key: str, written: Any) -> UnusualValue | None:
 
 
 def _unusual(key: str, written: Any) -> UnusualValue | None:
-    """Return what is unusual of the value ``written`` for a ``key``; None where it is in its usual range. A tuple: plain
-    numbers that were likely all meant in the unit of the first unusual one (`_are_in_one_unit`)."""
+    """Return what is unusual of the value ``written`` for a ``key``; None where it is in its usual range. A tuple:
+    plain numbers that were likely all meant in the unit of the first unusual one (`_are_in_one_unit`)."""
     q = KEYS[key]
     if isinstance(written, tuple):
         of_part = next(filter(None, (_unusual(key, part) for part in written)))
@@ -256,8 +257,8 @@ def _unusual(key: str, written: Any) -> UnusualValue | None:
 
 
 def refuse_far_value(name: str, key: str, written: Any) -> None:
-    """Raise `InputError` for a plain number ``written`` for a ``key`` (section.key) whose unit was certainly another, as a
-    scene with it is refused. ``name``: what the user calls it."""
+    """Raise `InputError` for a plain number ``written`` for a ``key`` (section.key) whose unit was certainly another,
+    as a scene with it is refused. ``name``: what the user calls it."""
     unusual = _unusual(key, written) if key in KEYS and not isinstance(written, str) else None
     if unusual is not None and unusual.is_refused:
         low, high = KEYS[key].usual
@@ -272,8 +273,8 @@ def _is_far(value: float, usual: Sequence[float], *, above: float) -> bool:
 
 
 def other_convention(key: str, values: Iterable[Any]) -> str:
-    """Return the question whether plain ``values`` of the ``key`` of sliding, as the user wrote them, are in the other of
-    its two conventions, percent or ratio; "" if they are not doubtful."""
+    """Return the question whether plain ``values`` of the ``key`` of sliding, as the user wrote them, are in the other
+    of its two conventions, percent or ratio; "" if they are not doubtful."""
     sizes = [abs(v) for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
     if not sizes or not math.isfinite(max(sizes)):
         return ""
@@ -320,8 +321,8 @@ def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:
 
 
 def _are_in_one_unit(name: str, value: Any) -> bool:
-    """Return whether a ``value`` for the key ``name`` is a list of plain numbers, some unusual, that are all usual in the
-    unit that was likely meant of the first such one."""
+    """Return whether a ``value`` for the key ``name`` is a list of plain numbers, some unusual, that are all usual in
+    the unit that was likely meant of the first such one."""
     if not isinstance(value, (list, tuple)):
         return False
     if not all(type(part) in (int, float) and math.isfinite(part) for part in value):

@@ -97,8 +97,9 @@ class Scene(Shown):
             raise InputError(
                 message,
                 "transient",
-                recommendation="omit inlet_film for a flooded inlet, or give lubricant.inlet_length: half the height of a piston ring, or "
-                "the length at which full_load_film of the scene without [transient] is the arriving film",
+                recommendation="omit inlet_film for a flooded inlet, or give lubricant.inlet_length: half the height "
+                "of a piston ring, or the length at which full_load_film of the scene without [transient] is the "
+                "arriving film",
             )
         if length is not None and length <= half_width:
             message = f" = {length:g} m lies inside the dry contact, where no film begins"
@@ -196,8 +197,9 @@ class Scene(Shown):
         numbers.
 
         Defaults are written except those of a roughness, and what is None is omitted. A ``surface.file`` is written
-        with its complete path, or relative to the ``folder`` of the scene file where that is given; and an oil as it was
-        given, instead of its numbers at the temperature. Raises `InputError` for a history that scene files do not have.
+        with its complete path, or relative to the ``folder`` of the scene file where that is given; and an oil as it
+        was given, instead of its numbers at the temperature. Raises `InputError` for a history that scene files do not
+        have.
         """
         lines = [f"name = {toml_value(self.name)}"]
         for section in SECTIONS:
@@ -253,7 +255,8 @@ def _map_in_words(file: str | Path, folder: str | Path | None) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """Return ``value`` as TOML has it, a history as the table of its fields. Raises `InputError` for what has no form there."""
+    """Return ``value`` as TOML has it, a history as the table of its fields. Raises `InputError` for what has no form
+    there."""
     if isinstance(value, History):
         kind = next((kind for kind, known in HISTORY_KINDS.items() if type(value) is known), None)
         if kind is None:
@@ -340,7 +343,8 @@ def has_generated_roughness(scene: Scene) -> bool:
 
 
 def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tuple[str, Any, str]]:
-    """Yield each input of ``scene`` that the model of the resolved gap does not take: its key, its value and what is allowed."""
+    """Yield each input of ``scene`` that the model of the resolved gap does not take: its key, its value and what is
+    allowed."""
     for name, allowed, why in VALUES_OF_RESOLVED_GAP:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)

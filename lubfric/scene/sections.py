@@ -154,7 +154,8 @@ def _missing(section: str, table: dict[str, Any]) -> str:
 
 
 def _missing_fields(section: str, plain: dict[str, Any]) -> str:
-    """Return the fields without a default that the ``plain`` values of a ``section`` leave out, as text; "" for none."""
+    """Return the fields without a default that the ``plain`` values of a ``section`` leave out, as text; "" for
+    none."""
     needed = [
         f.name
         for f in fields(SECTIONS[section])

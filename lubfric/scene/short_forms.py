@@ -65,9 +65,9 @@ def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, A
 
 
 def without_none(section: str, given: dict[str, Any], old: Any = None) -> dict[str, Any]:
-    """Return what is ``given`` without the short forms that are None, which state nothing, and without the fields that are
-    None because another key says the same thing: ``{"ra": 1e-7, "sq": None}`` states Ra alone. Of an oil, a property that
-    is None is the one that is estimated."""
+    """Return what is ``given`` without the short forms that are None, which state nothing, and without the fields that
+    are None because another key says the same thing: ``{"ra": 1e-7, "sq": None}`` states Ra alone. Of an oil, a
+    property that is None is the one that is estimated."""
     short = {*short_keys(section)} - ({*PROPERTIES} if section == "lubricant" and is_of_oil(given, old) else set())
     given = {key: value for key, value in given.items() if value is not None or key not in short}
     groups = [{*keys, *fields} for keys, fields, _ in FORMS.get(section, ())]
@@ -240,7 +240,8 @@ def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
     if degrees > 250:
         error = InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", "up to 250 °C")
         error.hint(
-            f"lubricant.temperature_celsius = {degrees:g} is read as {degrees:g} °C; did you mean temperature = {degrees:g} K?",
+            f"lubricant.temperature_celsius = {degrees:g} is read as {degrees:g} °C; did you mean temperature = "
+            f"{degrees:g} K?",
             asks=True,
         )
         raise error
@@ -323,7 +324,8 @@ FORMS["counterface"] = FORMS["surface"]
 
 
 def fields_of_key(name: str) -> tuple[str, ...]:
-    """Return the fields (section.field) that the key ``name`` (section.key) states: itself, and those of a short form."""
+    """Return the fields (section.field) that the key ``name`` (section.key) states: itself, and those of a short
+    form."""
     section, _, key = name.partition(".")
     stated = [field for keys, fields, _ in FORMS.get(section, ()) if key in keys for field in fields]
     return (name, *(f"{section}.{field}" for field in stated))

@@ -125,8 +125,8 @@ def history(
 ) -> History:
     """Return a history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file.
 
-    ``unit``: SI unit of the quantity; ``folder``: which a file of the table is relative to; ``rotational_speed`` [Hz]: with
-    which angles become times.
+    ``unit``: SI unit of the quantity; ``folder``: which a file of the table is relative to; ``rotational_speed`` [Hz]:
+    with which angles become times.
     """
     if isinstance(given, History):
         return given
@@ -176,8 +176,8 @@ def read_history(
     """Return the `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
-    unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused. ``angle_column``: a column of
-    angles of rotation [°] in place of the times, at a ``rotational_speed`` [Hz].
+    unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused. ``angle_column``: a column
+    of angles of rotation [°] in place of the times, at a ``rotational_speed`` [Hz].
     """
     over = _word("time_column", time_column) if angle_column is None else _word("angle_column", angle_column)
     names = over, _word("column", column)
@@ -194,8 +194,8 @@ def is_angle(given: Any) -> bool:
 
 
 def times_of_angles(angles: Any, rotational_speed: float | None) -> list[float]:
-    """Return the times [s] at which something that turns with ``rotational_speed`` [Hz] has turned by each of ``angles`` [°].
-    Raises `InputError` without that speed."""
+    """Return the times [s] at which something that turns with ``rotational_speed`` [Hz] has turned by each of
+    ``angles`` [°]. Raises `InputError` without that speed."""
     if rotational_speed is None:
         raise InputError(
             "angles are given without transient.rotational_speed", recommendation="give it, such as '1000 1/min'"

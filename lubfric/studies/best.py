@@ -18,7 +18,8 @@ from .conditions import design_keys, operating_keys
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .tables import columns_of_study
 
-# Parts of the uncertainty budget of f by ranges of inputs, which designs have in common where the inputs are not varied.
+# Parts of the uncertainty budget of f by ranges of inputs, which designs have in common where the inputs are not
+# varied.
 SHARED_PARTS = ("not_given", "inputs")
 
 # Models whose model-form errors of similar designs were compared.
@@ -39,19 +40,21 @@ COMPARED_KEYS = frozenset(
     }
 )
 
-# Correlation of the model-form errors of two designs that differ by `COMPARED_DISTANCE` at most [-]. Measured on pairs of random
-# contacts at rest and rolling (`python -m verification.campaigns.calibration pairs`): with it 95 to 100 % of the differences, by
-# motion and model, are within their 95 % error.
+# Correlation of the model-form errors of two designs that differ by `COMPARED_DISTANCE` at most [-]. Measured on pairs
+# of random contacts at rest and rolling (`python -m verification.campaigns.calibration pairs`): with it 95 to 100 % of
+# the differences, by motion and model, are within their 95 % error.
 CORRELATION_OF_DESIGNS = 0.75
 
-# Distance of two designs, the sum of the changes of ln of their keys, up to which that holds [-]: a factor of 2, the largest that
-# was compared. What is left of 1 - `CORRELATION_OF_DESIGNS` grows with the distance beyond it: a choice, as nothing was measured there.
+# Distance of two designs, the sum of the changes of ln of their keys, up to which that holds [-]: a factor of 2, the
+# largest that was compared. What is left of 1 - `CORRELATION_OF_DESIGNS` grows with the distance beyond it: a choice,
+# as nothing was measured there.
 COMPARED_DISTANCE = math.log(2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class BestDesign:
-    """The combination of design with the lowest friction, or power loss, at an operating condition, or over all of them.
+    """The combination of design with the lowest friction, or power loss, at an operating condition, or over all of
+    them.
 
     Attributes
     ----------
@@ -86,16 +89,17 @@ class BestDesign:
 
 
 def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
-    """Return the combination of the design keys with the lowest ``quantity`` at each operating condition, as a `BestDesign`
-    each.
+    """Return the combination of the design keys with the lowest ``quantity`` at each operating condition, as a
+    `BestDesign` each.
 
-    Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point lies; all
-    else that is varied is design. Two points cannot be distinguished where the difference of their numbers is within the error of this
-    difference. Errors count by the sides of the intervals that face each other. Numerical and sampling errors are taken as independent.
-    Model-form errors of similar designs by the quick model or that of the paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken
-    as independent. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two changes
-    counts. A point without a known interval cannot be distinguished from any other. Where f is that of rolling resistance
-    (`is_by_sliding`), it is not compared.
+    Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point
+    lies; all else that is varied is design. Two points cannot be distinguished where the difference of their numbers is
+    within the error of this difference. Errors count by the sides of the intervals that face each other. Numerical and
+    sampling errors are taken as independent. Model-form errors of similar designs by the quick model or that of the
+    paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken as independent. Ranges of inputs that both
+    designs share move both numbers the same way: only the difference of the two changes counts. A point without a known
+    interval cannot be distinguished from any other. Where f is that of rolling resistance (`is_by_sliding`), it is not
+    compared.
 
     Parameters
     ----------
@@ -136,12 +140,12 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
 
 
 def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
-    """Return the combination of the design keys with the lowest mean of a ``quantity`` over all operating conditions, weighted by
-    their duration if they have one; None where fewer than two designs have a known number at all of several conditions. Conditions at
-    which f of some design is that of rolling resistance do not count in its mean.
+    """Return the combination of the design keys with the lowest mean of a ``quantity`` over all operating conditions,
+    weighted by their duration if they have one; None where fewer than two designs have a known number at all of several
+    conditions. Conditions at which f of some design is that of rolling resistance do not count in its mean.
 
-    The interval is the mean of those of the points, whose errors are taken as fully correlated. ``quantity``, comparison and errors:
-    as of `best`.
+    The interval is the mean of those of the points, whose errors are taken as fully correlated. ``quantity``,
+    comparison and errors: as of `best`.
     """
     (columns, points) = _compared(result, quantity)
     value = points.value
@@ -257,7 +261,8 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
 
 
 def _counts(columns: dict[str, np.ndarray], quantity: str) -> np.ndarray:
-    """Return at which points a ``quantity`` is compared, (n,): f where it comes from sliding, the power loss everywhere."""
+    """Return at which points a ``quantity`` is compared, (n,): f where it comes from sliding, the power loss
+    everywhere."""
     return is_by_sliding(columns) if quantity == "coefficient" else np.ones(columns[quantity].size, dtype=bool)
 
 
@@ -271,8 +276,8 @@ def _magnitude(columns: dict[str, np.ndarray], quantity: str) -> tuple[np.ndarra
 
 
 def _sets_of_inputs(result: Any, columns: dict[str, np.ndarray]) -> np.ndarray:
-    """Return the number of the set of inputs with a range that each point has, (n,). An input that the study varies is another
-    one at each design, also where its range is the same."""
+    """Return the number of the set of inputs with a range that each point has, (n,). An input that the study varies is
+    another one at each design, also where its range is the same."""
     scenes = result.plan.scenes
     designs = _groups(columns, design_keys(result.plan))
     varied = {*design_keys(result.plan)}
@@ -309,7 +314,8 @@ def _correlation(points: _Points, row: int) -> np.ndarray:
 
 
 def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray:
-    """Return the number of the combination of the values of ``keys`` of each point, in the order in which they occur, (n,)."""
+    """Return the number of the combination of the values of ``keys`` of each point, in the order in which they occur,
+    (n,)."""
     count = len(next(iter(columns.values())))
     rows = zip(*(columns[key].tolist() for key in keys)) if keys else [()] * count
     numbers: dict[tuple[Any, ...], int] = {}
@@ -317,7 +323,8 @@ def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray
 
 
 def _ranked(points: _Points) -> tuple[int, np.ndarray]:
-    """Return which of ``points`` has the lowest value, and which others cannot be distinguished from it, the lowest first."""
+    """Return which of ``points`` has the lowest value, and which others cannot be distinguished from it, the lowest
+    first."""
     value = points.value
     order = np.argsort(value, kind="stable")
     lowest = int(order[0])

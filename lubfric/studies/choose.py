@@ -38,8 +38,8 @@ FULL_FILM_RATIO = 10.0
 # search elsewhere.
 MIXED_FILM_RATIOS = (0.5, 1.5, 4.5)
 
-# Moes' film of the whole load over Sq at the speeds that a curve chooses, about, for estimates of time: 16 random curves of
-# `python -m verification.campaigns.estimates` have 11 to 15 points, 197 in all, two fifths of them above 1.5.
+# Moes' film of the whole load over Sq at the speeds that a curve chooses, about, for estimates of time: 16 random
+# curves of `python -m verification.campaigns.estimates` have 11 to 15 points, 197 in all, two fifths of them above 1.5.
 EXPECTED_FILM_RATIOS = (0.07, 0.2, 0.5, 0.85, 1.15, 1.5, 2.1, 2.7, 4.5, 5.2)
 
 # Speeds that a curve chooses, about: these and both ends. A choice: it moves estimates alone.
@@ -118,8 +118,8 @@ def alike(value: float, values: Iterable[float]) -> float:
 
 
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]) -> Iterator[tuple[float, Any]]:
-    """Yield (speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
-    ``solve(speed)`` gives an outcome."""
+    """Yield (speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the
+    other. ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST_CHOSEN_SPEEDS:
         for speed in ahead:
@@ -134,9 +134,9 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """Return the tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
-    points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
-    sampling tolerance."""
+    """Return the tolerance on f between the points of a curve: that on f itself. On strips of a rough surface,
+    neighbouring points may be solved on different numbers of them; there it is the root sum of squares of the tolerance
+    on f and the sampling tolerance."""
     return prepared.sample.tolerance_between(prepared.scene.numerics)
 
 
@@ -145,9 +145,9 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
 
     ``tried``: speeds that failed and are left alone.
 
-    First the knee at lift-off is enclosed: a film just thicker than the highest asperities shows where contact begins, and the contact
-    just before shows how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
-    largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
+    First the knee at lift-off is enclosed: a film just thicker than the highest asperities shows where contact begins,
+    and the contact just before shows how it ends. No two films are left far apart. Then comes the speed at which the
+    estimated error is largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
     samples = curve.samples
     knee = curve.lift_off
@@ -179,8 +179,8 @@ def between(curve: Interpolant) -> float:
 
 
 def _errors_between(curve: Interpolant, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return speeds [m/s] between the ends of a curve and the estimated relative error of f at each, which is 0 near the
-    speeds that are ``taken``."""
+    """Return speeds [m/s] between the ends of a curve and the estimated relative error of f at each, which is 0 near
+    the speeds that are ``taken``."""
     speeds = curve.samples.speed
     grid = np.geomspace(speeds[0], speeds[-1], SPEEDS_OF_ERROR)[1:-1]
     return grid, np.where(_free(grid, taken), curve.error(grid), 0.0)
@@ -199,14 +199,14 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
 
 
 def expected_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """Return the speeds [m/s] that a curve is expected to choose, fastest first, for estimates of time: both ends of `span`, and
-    where Moes' film under the total load is `EXPECTED_FILM_RATIOS` times Sq."""
+    """Return the speeds [m/s] that a curve is expected to choose, fastest first, for estimates of time: both ends of
+    `span`, and where Moes' film under the total load is `EXPECTED_FILM_RATIOS` times Sq."""
     return _speeds_at(scene, sq, EXPECTED_FILM_RATIOS, EXPECTED_SPEEDS)
 
 
 def _speeds_at(scene: Scene, sq: float, ratios: Sequence[float], count: int) -> tuple[float, ...]:
-    """Return at least ``count`` speeds [m/s], fastest first: both ends of `span`, those of the film ``ratios`` between them, and
-    means of neighbours."""
+    """Return at least ``count`` speeds [m/s], fastest first: both ends of `span`, those of the film ``ratios`` between
+    them, and means of neighbours."""
     low, high = span(scene, sq)
     speeds = [low, high]
     if sq > 0:

@@ -97,7 +97,8 @@ def fits(value: Any, kind: Any) -> bool:
 
 @cache
 def _hints(kind: Any) -> dict[str, Any]:
-    """Return the types of the fields of a dataclass or a named tuple. A type variable represents a number of one point."""
+    """Return the types of the fields of a dataclass or a named tuple. A type variable represents a number of one
+    point."""
     hints = get_type_hints(kind)
     names = [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in names}

@@ -28,9 +28,9 @@ COMPUTATION = ("numerics.", "surface.seed", "counterface.seed", "contact.")
 
 
 def operating_keys(plan: Any) -> tuple[str, ...]:
-    """Return the keys with several values in a `StudyPlan` that are conditions: load, speeds, slide-roll ratio and temperature of
-    the oil, columns that say where an operating point lies, and keys of the computation. Of a table of operating points with one of
-    these all columns are: the radius of a gear flank changes along the path of contact."""
+    """Return the keys with several values in a `StudyPlan` that are conditions: load, speeds, slide-roll ratio and
+    temperature of the oil, columns that say where an operating point lies, and keys of the computation. Of a table of
+    operating points with one of these all columns are: the radius of a gear flank changes along the path of contact."""
     varied = _varied(plan)
     of_table = {key for key in varied if plan.paired and plan.coords[key][0] == POINT}
     if not any(_is_condition(key) for key in of_table):

@@ -112,9 +112,9 @@ def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], 
 def without_rolling(point: FrictionResult, slide_roll_ratio: float) -> float:
     """Return the mean of the friction coefficients of both surfaces at a point [-], each against its own sliding.
 
-    Shear by sliding acts on both alike, and rolling resistance R opposes the motion of both: f is that of surface 2, and that of
-    surface 1 is f - R/F_T at a positive slide-roll ratio, f + R/F_T at a negative one. Between smooth surfaces it is the mean of f over
-    both signs of slip. In pure rolling f is against the entrainment.
+    Shear by sliding acts on both alike, and rolling resistance R opposes the motion of both: f is that of surface 2,
+    and that of surface 1 is f - R/F_T at a positive slide-roll ratio, f + R/F_T at a negative one. Between smooth
+    surfaces it is the mean of f over both signs of slip. In pure rolling f is against the entrainment.
     """
     sense = -1.0 if slide_roll_ratio < 0 else 1.0
     return point.coefficient - sense * 0.5 * point.rolling_resistance / (point.contact_load + point.film_load)
@@ -126,7 +126,8 @@ def columns_of(points: Sequence[Any]) -> dict[str, np.ndarray]:
 
 
 def points_of_interpolation(points: Sequence[Any]) -> dict[str, np.ndarray]:
-    """Return `columns_of` with the column of the numerical error of f, of which `lubfric.studies.interpolate` makes a curve."""
+    """Return `columns_of` with the column of the numerical error of f, of which `lubfric.studies.interpolate` makes a
+    curve."""
     numerical = [np.nan if p is None else p.uncertainty.numerical for p in points]
     return columns_of(points) | {COLUMN_OF_ERROR["numerical"]: np.array(numerical)}
 

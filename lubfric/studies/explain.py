@@ -30,8 +30,8 @@ from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
 
-# How well times are estimated: 94 % of 291 runs of verification.campaigns.estimates are within that; most of the constants were
-# chosen with these in sight. Measured.
+# How well times are estimated: 94 % of 291 runs of verification.campaigns.estimates are within that; most of the
+# constants were chosen with these in sight. Measured.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 
 # The speed of a curve that chooses its speeds, in the place of one: a name.
@@ -45,8 +45,8 @@ LISTED = 4
 
 
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
-    """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
-    factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
+    """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses),
+    within a factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
     return _curve_seconds(_estimated_points(prepared, speeds), speeds, has_new_map=has_new_map)
 
 
@@ -107,8 +107,8 @@ class Left:
     Attributes
     ----------
     seconds : estimated processor time [s]
-    points : of each point by the key of its scene and its speed [m/s], in the order in which they are solved; of a curve that
-        chooses its speeds with `NO_SPEED`
+    points : of each point by the key of its scene and its speed [m/s], in the order in which they are solved; of a
+        curve that chooses its speeds with `NO_SPEED`
     models : number of the points of these scenes that each model is expected to answer, by its name
     failed : why some cannot be solved, in lines
     warnings : what is expected not to hold, but the unusual values (`warnings_of`), in sentences
@@ -162,16 +162,16 @@ def _left(plan: Any, table: StudyTable) -> Left:
 
 
 def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float) -> dict[tuple[str, Any], float]:
-    """Return the processor seconds of each of the ``points`` of a scene with this ``key``, the first with what they share, such that
-    they are ``total`` together."""
+    """Return the processor seconds of each of the ``points`` of a scene with this ``key``, the first with what they
+    share, such that they are ``total`` together."""
     alone = [point.seconds - sum(part.seconds for part in point.shared) for point in points]
     alone[0] += total - sum(alone)
     return {(key, point.speed): seconds for point, seconds in zip(points, alone)}
 
 
 def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:
-    """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its unusual
-    values."""
+    """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its
+    unusual values."""
     scene = prepared.scene
     solved_speeds = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
     expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds)
@@ -180,8 +180,8 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
 
 
 def _expected_effects(prepared: Prepared, speeds: Sequence[float]) -> Iterator[ExpectedEffect]:
-    """Yield the effects that are not modelled of a scene at the lowest and the highest of ``speeds`` [m/s] (none: of those that it
-    chooses)."""
+    """Yield the effects that are not modelled of a scene at the lowest and the highest of ``speeds`` [m/s] (none: of
+    those that it chooses)."""
     sq = prepared.surface.sq
     solved_speeds = speeds or first_speeds(prepared.scene, sq)
     for speed in {min(solved_speeds, key=abs), max(solved_speeds, key=abs)}:
@@ -236,7 +236,8 @@ def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str
     others = 0 if plan.chooses_speeds else kept.count - held - kept.has(PLAN)
     if others > 0:
         lines.append(
-            f"  other    {counted(others, 'points')} of other scenes, or of another version of lubfric, are in {store} too; they are not used"
+            f"  other    {counted(others, 'points')} of other scenes, or of another version of lubfric, are in "
+            f"{store} too; they are not used"
         )
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]

@@ -34,12 +34,12 @@ LAST_CHANGE_OF_SUM = 1e-4
 # Most curves of the search, beside those of the differences. A choice: a bound of the work.
 MOST_CURVES = 30
 
-# Curves of the fit by the scene's own model, about, beside two for each parameter: at the start and at the fitted values. 3 to 5
-# were solved for one parameter, 4 to 14 for f_b and another one, 2 or 3 for f_b alone.
+# Curves of the fit by the scene's own model, about, beside two for each parameter: at the start and at the fitted
+# values. 3 to 5 were solved for one parameter, 4 to 14 for f_b and another one, 2 or 3 for f_b alone.
 USUAL_CURVES = 2
 
-# Beginnings of the trust region, at most: at a start, and again at fitted values that were not solved yet, or at a lower curve
-# of the differences. A choice: a bound of the work.
+# Beginnings of the trust region, at most: at a start, and again at fitted values that were not solved yet, or at a
+# lower curve of the differences. A choice: a bound of the work.
 MOST_BEGINNINGS = 6
 
 # Curves of a parameter that f does not change with at the fit, about: at both bounds, and to the end of its interval. A
@@ -80,10 +80,11 @@ def fit(
     searches the complete bounds with the load-sharing model, loose tolerances and at most 8 of the points
     (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum, a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's
-    own model; from the next ones too that larger residuals part from it, while the fit does not describe the data. Derivatives are differences over 4 %
-    of the bounds, which stay above the tolerance on f. A parameter that f does not change with at the fit is followed to
-    its bounds (`lubfric.studies.fit_profile`); the fit continues from smaller residuals on the way. The search stops when a step moves the parameters by <= 0.2 %
-    of their bounds, or changes the sum by <= 1e-4 of it.
+    own model; from the next ones too that larger residuals part from it, while the fit does not describe the data.
+    Derivatives are differences over 4 % of the bounds, which stay above the tolerance on f. A parameter that f does not
+    change with at the fit is followed to its bounds (`lubfric.studies.fit_profile`); the fit continues from smaller
+    residuals on the way. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
+    sum by <= 1e-4 of it.
 
     `FitResult` has the uncertainty of the values, and says whether the fit describes the data at all.
     `lubfric.explain_fit` says beforehand how long a fit will take.
@@ -227,7 +228,8 @@ def _checked(scene: Scene, measured: Measured, parameters: Mapping[str, Any]) ->
 
 
 def _checked_starts(scene: Scene, starts: int | None, bounds: dict[str, Between]) -> int:
-    """Return the number of starts of the search; raises `InputError`. A fit of f_b alone has one minimum and needs none."""
+    """Return the number of starts of the search; raises `InputError`. A fit of f_b alone has one minimum and needs
+    none."""
     changed = len(bounds) - (linear_place(scene, bounds) is not None)
     if starts is None:
         starts = sobol_count(changed) if changed else 0
@@ -254,8 +256,8 @@ def _start(scene: Scene, bounds: dict[str, Between], start: dict[str, float]) ->
 
 
 def _usual_seconds(curves: FitCurves, begin: np.ndarray) -> float:
-    """Return the estimated processor seconds of one of the ``curves``: the mean of those at ``begin`` and at corners of the
-    bounds. What curves share is done by one of many, and does not count."""
+    """Return the estimated processor seconds of one of the ``curves``: the mean of those at ``begin`` and at corners of
+    the bounds. What curves share is done by one of many, and does not count."""
     corners = list(product((0.0, 1.0), repeat=begin.size))
     places = [begin, *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
     curves.prepared(begin)
@@ -280,8 +282,8 @@ class _Progress:
     def report(self, curves: FitCurves) -> None:
         """Report the last of ``curves``.
 
-        A curve takes what those of its kind took with their maps; of a kind that has none yet what was estimated, times the
-        ratio of what the others took to their estimates.
+        A curve takes what those of its kind took with their maps; of a kind that has none yet what was estimated, times
+        the ratio of what the others took to their estimates.
         """
         now = processor_time()
         self.elapsed[id(curves)] += now - self.reported
@@ -321,8 +323,8 @@ def _sum_of_squares(result: FitResult) -> float:
 
 
 def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResult:
-    """Return ``result`` with the profiles of the parameters that f does not change with there; where one of them leads to
-    a smaller sum of squares, the result of a trust region that begins there."""
+    """Return ``result`` with the profiles of the parameters that f does not change with there; where one of them leads
+    to a smaller sum of squares, the result of a trust region that begins there."""
     followed: set[int] = set()  # beside an edge of f the differences say no more than on the flat
     for _ in range(result.unit.size + 1):
         jacobian = result.slopes / result.measured.scale[:, None]
@@ -347,8 +349,8 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
 
 
 def _least(curves: FitCurves, begin: np.ndarray) -> tuple[np.ndarray, str, int]:
-    """Return the position (p,) of the solved curve at which a trust region from ``begin`` (p,) ends, its status, and the
-    number of its steps.
+    """Return the position (p,) of the solved curve at which a trust region from ``begin`` (p,) ends, its status, and
+    the number of its steps.
 
     It begins again where f_b alone has moved, so that the curve is not solved yet, until it moves by no more than
     `LAST_MOVE`; and where a curve of the differences has a smaller sum of squares.

@@ -1,8 +1,8 @@
-"""Whether a fit describes its data: the size of the residuals against the stated noise, their order, and whether an offset
-or a factor of the measured f would explain them.
+"""Whether a fit describes its data: the size of the residuals against the stated noise, their order, and whether an
+offset or a factor of the measured f would explain them.
 
-The residuals of a fit are not independent: what its parameters can follow is taken out of them. So the probabilities are
-those among residuals of random noise from which the same parameters take out the same, to first order.
+The residuals of a fit are not independent: what its parameters can follow is taken out of them. So the probabilities
+are those among residuals of random noise from which the same parameters take out the same, to first order.
 """
 
 import math
@@ -42,8 +42,8 @@ EXPLAINING = 0.5
 # Difference of the shares that an offset and a factor explain, below which either may be the cause. A convention.
 AS_LIKELY = 0.1
 
-# Root mean square residual relative to f that the scatter of a measurement explains, where its deviations are not stated.
-# A convention: friction on rigs repeats within some 5 to 10 %.
+# Root mean square residual relative to f that the scatter of a measurement explains, where its deviations are not
+# stated. A convention: friction on rigs repeats within some 5 to 10 %.
 LARGEST_UNSTATED = 0.1
 
 # Residuals below this multiple of the numerical error of f are no sign of anything. A choice: twice.
@@ -100,8 +100,8 @@ class ResidualTests:
 
     @property
     def too_far(self) -> bool:
-        """Whether the residuals, of data without stated deviations, are more than the usual scatter of a measurement and
-        more than the model-form error of f."""
+        """Whether the residuals, of data without stated deviations, are more than the usual scatter of a measurement
+        and more than the model-form error of f."""
         return math.isnan(self.size) and _known_error(self.relative) > max(LARGEST_UNSTATED, self.expected)
 
     @property
@@ -121,19 +121,20 @@ class ResidualTests:
         if self.too_far:
             expected = f" and above the model-form error of f, {100 * self.expected:.2g} %" if self.expected else ""
             how.append(
-                f"{subject} {100 * self.relative:.2g} % of f (root mean square), above the {100 * LARGEST_UNSTATED:g} % that "
-                f"the scatter of a measurement explains{expected}"
+                f"{subject} {100 * self.relative:.2g} % of f (root mean square), above the {100 * LARGEST_UNSTATED:g} "
+                f"% that the scatter of a measurement explains{expected}"
             )
         return "; and ".join(how)
 
     @property
     def text(self) -> str:
-        """The `reason`, what that means and what to do, in sentences; "" if the fit describes the data as far as the tests show."""
+        """The `reason`, what that means and what to do, in sentences; "" if the fit describes the data as far as the
+        tests show."""
         if self.describes:
             return ""
         return (
-            f"the fit does not describe the data: {self.reason}. The intervals are not valid. Choose other parameters, wider "
-            "bounds or another model, or check the data"
+            f"the fit does not describe the data: {self.reason}. The intervals are not valid. Choose other "
+            "parameters, wider bounds or another model, or check the data"
             + ("; state their deviations if they are known" if self.too_far else "")
         )
 
@@ -146,12 +147,12 @@ class ResidualTests:
             return "the residuals are within the numerical error of f"
         if self.doubtful:
             return (
-                f"the residuals may be systematic: {self._rarity}{self._cause}. The fit may not describe the data then, and "
-                "the intervals, which assume random scatter, may be too narrow"
+                f"the residuals may be systematic: {self._rarity}{self._cause}. The fit may not describe the data "
+                "then, and the intervals, which assume random scatter, may be too narrow"
             )
         return (
-            "the residuals look like random scatter, which the intervals assume: neither their order nor an offset or a factor "
-            "of the measured f shows a systematic deviation"
+            "the residuals look like random scatter, which the intervals assume: neither their order nor an offset or "
+            "a factor of the measured f shows a systematic deviation"
         )
 
     @property
@@ -231,14 +232,15 @@ def residual_tests(
 
 
 def chance_of(residuals: FloatArray, axes: FloatArray, further: FloatArray) -> tuple[float, float, float]:
-    """Return the probabilities of the order of ``residuals`` (n,), of what ``further`` axes explain of them, and of both.
+    """Return the probabilities of the order of ``residuals`` (n,), of what ``further`` axes explain of them, and of
+    both.
 
     They are those among random residuals (normal, alike at all points) without what the parameters follow: the order by
-    the sum of the products of neighbours over the sum of squares (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395,
-    doi:10.1214/aoms/1177731677), and the further axes by the F test of two nested models. The probability of both is that
-    of the least of three: these two, and that of their product (R. A. Fisher), so that neither one clear sign nor two weak
-    ones are missed. The distribution of this least is that among the random residuals as well, as the three are not
-    independent.
+    the sum of the products of neighbours over the sum of squares (J. von Neumann, Ann. Math. Statist. 12 (1941)
+    367-395, doi:10.1214/aoms/1177731677), and the further axes by the F test of two nested models. The probability of
+    both is that of the least of three: these two, and that of their product (R. A. Fisher), so that neither one clear
+    sign nor two weak ones are missed. The distribution of this least is that among the random residuals as well, as the
+    three are not independent.
 
     Parameters
     ----------
@@ -291,9 +293,9 @@ def _new_axes(columns: FloatArray, axes: FloatArray) -> FloatArray:
 
 
 def _shift(residuals: FloatArray, axes: FloatArray, column: FloatArray) -> tuple[float, float]:
-    """Return by how many times the ``column`` (n,), of an offset of the measured f or of its relative change, the sum of the
-    squared ``residuals`` becomes least, with the parameters moved along to first order, and the share of the sum that this
-    explains; NaN where the parameters stand for it."""
+    """Return by how many times the ``column`` (n,), of an offset of the measured f or of its relative change, the sum
+    of the squared ``residuals`` becomes least, with the parameters moved along to first order, and the share of the sum
+    that this explains; NaN where the parameters stand for it."""
     left = column - axes @ (axes.T @ column)
     length = float(np.linalg.norm(left))
     own = residuals - axes @ (axes.T @ residuals)

@@ -53,9 +53,9 @@ class FitCurves:
     A position ``unit`` (p,) is 0 at the lower and 1 at the upper bound of each parameter. ``on_curve`` is called
     without arguments after every curve that was solved.
 
-    A curve that differs from a solved one in f_b alone is not solved: at a given division of the load f is linear in f_b,
-    as in the range of f_b of a point (`lubfric.estimate.ranges`). Where heat, or the calibration of the quick model, changes
-    with f_b, it is so to first order, and `solve` shows the difference.
+    A curve that differs from a solved one in f_b alone is not solved: at a given division of the load f is linear in
+    f_b, as in the range of f_b of a point (`lubfric.estimate.ranges`). Where heat, or the calibration of the quick
+    model, changes with f_b, it is so to first order, and `solve` shows the difference.
     """
 
     def __init__(
@@ -136,8 +136,8 @@ class FitCurves:
         return self._curves[unit.tobytes()]
 
     def coefficient(self, unit: np.ndarray) -> np.ndarray:
-        """Return f (n,), with or without the rolling part of the film's force, as was measured; from the nearest solved curve
-        that differs in f_b alone, if there is one."""
+        """Return f (n,), with or without the rolling part of the film's force, as was measured; from the nearest solved
+        curve that differs in f_b alone, if there is one."""
         known = self._known_balance(unit)
         if known is None:
             return self._measured_part(self.points(unit))
@@ -148,8 +148,8 @@ class FitCurves:
         return f + change * self._per_boundary_friction(known)
 
     def lowest_over_boundary_friction(self, unit: np.ndarray) -> np.ndarray:
-        """Return ``unit`` with the f_b of the least sum of squares, at the balances of the curve there; ``unit`` itself where f
-        does not change with f_b, or f_b is no parameter."""
+        """Return ``unit`` with the f_b of the least sum of squares, at the balances of the curve there; ``unit`` itself
+        where f does not change with f_b, or f_b is no parameter."""
         place = self.linear_place
         known = self._known_balance(unit)
         if place is None or known is None or self._boundary_friction(known) == 0.0:
@@ -177,13 +177,14 @@ class FitCurves:
         return values_at(self.parameters, unit)[BOUNDARY_FRICTION_KEY]
 
     def _per_boundary_friction(self, unit: np.ndarray) -> np.ndarray:
-        """Return df/df_b (n,) of the solved curve at ``unit``, whose f_b is above 0: the part of the load with the stress f_b p."""
+        """Return df/df_b (n,) of the solved curve at ``unit``, whose f_b is above 0: the part of the load with the
+        stress f_b p."""
         per_load = [point.boundary_force / (point.contact_load + point.film_load) for point in self.points(unit)]
         return np.array(per_load) / self._boundary_friction(unit)
 
     def _known_balance(self, unit: np.ndarray) -> np.ndarray | None:
-        """Return ``unit`` if the curve there is solved, else the position of the nearest solved curve that differs in f_b
-        alone; None: there is none."""
+        """Return ``unit`` if the curve there is solved, else the position of the nearest solved curve that differs in
+        f_b alone; None: there is none."""
         if self.is_solved(unit):
             return unit
         place = self.linear_place
@@ -239,7 +240,8 @@ class FitCurves:
         return self._prepared
 
     def estimated_seconds(self, unit: np.ndarray) -> float:
-        """Return the estimated processor seconds of the curve at ``unit``, with those of its map unless it is the last."""
+        """Return the estimated processor seconds of the curve at ``unit``, with those of its map unless it is the
+        last."""
         last = self._prepared
         begun = time.process_time()
         prepared = self.prepared(unit)
@@ -253,15 +255,16 @@ class FitCurves:
 
 
 def linear_place(scene: Scene, parameters: dict[str, Between]) -> int | None:
-    """Return the place of f_b among the ``parameters`` if f is linear in it at a given division of the load; None: it is no
-    parameter, or bounds the stress of the film as well."""
+    """Return the place of f_b among the ``parameters`` if f is linear in it at a given division of the load; None: it
+    is no parameter, or bounds the stress of the film as well."""
     if BOUNDARY_FRICTION_KEY not in parameters or scene.lubricant.is_limited_by_boundary_friction:
         return None
     return list(parameters).index(BOUNDARY_FRICTION_KEY)
 
 
 def fit_tolerance(scene: Scene, measured: Measured) -> float:
-    """Return the relative tolerance on f that a fit solves to, to two digits: small compared with the scatter of the data."""
+    """Return the relative tolerance on f that a fit solves to, to two digits: small compared with the scatter of the
+    data."""
     stated = measured.deviation is not None
     scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if stated else USUAL_SCATTER
     by_scatter = float(f"{max(SHARE_OF_SCATTER * scatter, TIGHTEST):.2g}")

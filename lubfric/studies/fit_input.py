@@ -132,8 +132,8 @@ class Measured:
         return self.coefficient if self.deviation is None else self.deviation
 
     def draw(self, axes: "Axes", *, is_signed: bool = False) -> None:
-        """Draw the points on ``axes``, with their 95 % intervals, over the magnitude of what they are over, or over that
-        itself (``is_signed``)."""
+        """Draw the points on ``axes``, with their 95 % intervals, over the magnitude of what they are over, or over
+        that itself (``is_signed``)."""
         error = None if self.deviation is None else 1.96 * self.deviation
         for place, number in enumerate(self.branches):
             there = slice(None) if self.branch is None else self.branch == number
@@ -230,8 +230,8 @@ def read_measured(
 
 
 def ramps(x: np.ndarray) -> np.ndarray | None:
-    """Return the number of the ramp of each of the speeds ``x``, in the order of the measurement; None for one ramp, and
-    for speeds in no order. A ramp rises or falls all the way; where a speed is repeated at the turn, the next ramp
+    """Return the number of the ramp of each of the speeds ``x``, in the order of the measurement; None for one ramp,
+    and for speeds in no order. A ramp rises or falls all the way; where a speed is repeated at the turn, the next ramp
     begins."""
     steps = np.diff(x)
     if x.size < 2 * SHORTEST_RAMP or (steps > 0).all() or (steps < 0).all():

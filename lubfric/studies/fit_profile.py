@@ -21,8 +21,8 @@ MOST_FOLLOWED = 12
 # Decrease of the sum of squares, as a share of it, from which a fit continues elsewhere. A convention.
 LEAST_DECREASE = 0.01
 
-# Distance of two curves, as a share of the bounds, up to which residuals between them are interpolated to look for smaller
-# ones. A convention.
+# Distance of two curves, as a share of the bounds, up to which residuals between them are interpolated to look for
+# smaller ones. A convention.
 INTERPOLATED = 0.25
 
 # Positions between two curves at which interpolated residuals are compared, as a share of their distance. A choice: it
@@ -58,8 +58,8 @@ class Profile:
 
 
 def flat_parameters(jacobian: FloatArray, variance: float, student: float) -> list[int]:
-    """Return the places of the parameters that change the residuals by less, over the complete bounds and to first order,
-    than their intervals allow. ``jacobian`` (n, p): of the residuals; ``variance`` of these."""
+    """Return the places of the parameters that change the residuals by less, over the complete bounds and to first
+    order, than their intervals allow. ``jacobian`` (n, p): of the residuals; ``variance`` of these."""
     lengths = np.sqrt(np.sum(jacobian**2, axis=0))
     return [int(place) for place in np.flatnonzero(lengths <= 2.0 * student * np.sqrt(variance))]
 
@@ -69,8 +69,8 @@ def follow(
 ) -> Profile:
     """Follow the parameter at ``place`` from ``unit`` (p,) to its bounds.
 
-    ``jacobian`` (n, p): of the residuals at ``unit``; ``variance`` of these; ``student``: t of the intervals. A curve that
-    cannot be solved ends the way: the data then set no limit on that side, and ``change`` is NaN.
+    ``jacobian`` (n, p): of the residuals at ``unit``; ``variance`` of these; ``student``: t of the intervals. A curve
+    that cannot be solved ends the way: the data then set no limit on that side, and ``change`` is NaN.
     """
     others = _Others(np.delete(jacobian, place, axis=1), np.delete(unit, place), student * math.sqrt(variance))
     start = float(unit[place])
@@ -128,8 +128,8 @@ def follow(
 
 
 class _Others:
-    """The other parameters of a fit, which move along to first order: within their own intervals, as the profile of the sum
-    of squares does until it exceeds what the interval allows, and within their bounds."""
+    """The other parameters of a fit, which move along to first order: within their own intervals, as the profile of the
+    sum of squares does until it exceeds what the interval allows, and within their bounds."""
 
     def __init__(self, jacobian: FloatArray, unit: FloatArray, allowed: float):
         self.jacobian = jacobian

@@ -43,8 +43,8 @@ NO_BAND = "fit, which does not describe the data: no interval is valid"
 # `LAST_MOVE`, where a search ends.
 AT_BOUND = 5e-3
 
-# Move of the parameters by another sample of the surface, over half of their interval, up to which it is not reported. A
-# convention.
+# Move of the parameters by another sample of the surface, over half of their interval, up to which it is not reported.
+# A convention.
 UNREPORTED_MOVE = 0.01
 
 # Correlation of two parameters, without sign, above which it is reported. A convention.
@@ -74,21 +74,22 @@ class FitResult(Renamed, Shown):
     deviations : their standard deviations, by key
     base : the scene that was fitted, with its own numerics
     scene : ``base`` with the values put in
-    tolerance : relative tolerance on f that the fit solved to: that of ``base``, or a smaller one by the noise of the data
+    tolerance : relative tolerance on f that the fit solved to: that of ``base``, or a smaller one by the noise of the
+        data
     predicted : f at the measured points, (n,)
     unit : the parameters as positions between their bounds, 0 to 1, (p,)
     unit_covariance : covariance of ``unit``, (p, p)
     slopes : df/d(unit) at the measured points, (n, p)
-    violations : the assumptions that do not hold at each of the points (`lubfric.Violation`). A severe one is there only
-        where it was accepted; ``validity`` gathers them
+    violations : the assumptions that do not hold at each of the points (`lubfric.Violation`). A severe one is there
+        only where it was accepted; ``validity`` gathers them
     tests : what the residuals say of the fit (`lubfric.studies.fit_checks.ResidualTests`)
     starts : number of starts that were spread over the bounds
     minima : minima of the search by the load-sharing model, the lowest first, as far as their residuals compare with
         it (`lubfric.studies.fit_search.Candidate`)
     sampling : relative standard error of f at the points because a finite surface represents all of it, (n,); NaN
         where it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
-    model_error : relative model-form error of f at the points at 95 %, (n,); NaN where it is not known. It is not in the
-        covariance
+    model_error : relative model-form error of f at the points at 95 %, (n,); NaN where it is not known. It is not in
+        the covariance
     variance : s², of the residuals over the scale of the measured points
     points : results at the measured points, (n,), without fields
     profiles : by key, the curves over the bounds of parameters that f does not change with at the fit
@@ -154,8 +155,8 @@ class FitResult(Renamed, Shown):
 
     @property
     def undetermined_sides(self) -> dict[str, tuple[str, ...]]:
-        """By key, on which side the data do not determine a parameter, because its 95 % interval reaches that bound: "below",
-        "above"."""
+        """By key, on which side the data do not determine a parameter, because its 95 % interval reaches that bound:
+        "below", "above"."""
         sides: dict[str, tuple[str, ...]] = {}
         for key, low, high in zip(self.parameters, *self._ends):
             reached = tuple(side for side, at_bound in (("below", low <= 0.0), ("above", high >= 1.0)) if at_bound)
@@ -188,8 +189,8 @@ class FitResult(Renamed, Shown):
         return self.base.with_keys(self.values)
 
     def to_toml(self) -> str:
-        """Return `scene` as the text of a scene file, with a comment on each parameter at its head: its 95 % interval, or
-        that the data do not determine it."""
+        """Return `scene` as the text of a scene file, with a comment on each parameter at its head: its 95 % interval,
+        or that the data do not determine it."""
         lines = [f"# Fit to {self.measured.source}."]
         if not self.describes_data:
             lines.append("# The fit does NOT describe the data: the values below have no meaning.")
@@ -223,8 +224,8 @@ class FitResult(Renamed, Shown):
 
     @property
     def describes_data(self) -> bool:
-        """False where the residuals are systematic, or larger than the stated deviations, or else the usual scatter and the
-        model-form error, allow. Such a fit has no meaningful intervals."""
+        """False where the residuals are systematic, or larger than the stated deviations, or else the usual scatter and
+        the model-form error, allow. Such a fit has no meaningful intervals."""
         return self.tests is None or self.tests.describes
 
     @property
@@ -245,8 +246,8 @@ class FitResult(Renamed, Shown):
 
     @property
     def effects(self) -> dict[str, float]:
-        """Largest relative change of f at the measured points by each parameter: over its bounds, to first order; of those
-        with profiles, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
+        """Largest relative change of f at the measured points by each parameter: over its bounds, to first order; of
+        those with profiles, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
         relative = np.abs(self.slopes / self.predicted[:, None]).max(axis=0)
         effects = dict(zip(self.parameters, relative.tolist()))
         return effects | {key: profile.change for key, profile in self.profiles.items()}
@@ -268,14 +269,14 @@ class FitResult(Renamed, Shown):
 
     @property
     def error_of_alpha(self) -> str:
-        """That the intervals do not include the error of an estimated pressure-viscosity coefficient, as text; "" where it is given
-        or fitted, or changes f by less than ``numerics.tolerance``."""
+        """That the intervals do not include the error of an estimated pressure-viscosity coefficient, as text; "" where
+        it is given or fitted, or changes f by less than ``numerics.tolerance``."""
         return alpha_of_fit_in_words(point.unmodelled_effects for point in self.points)
 
     @property
     def identifiability(self) -> tuple[str, ...]:
-        """What the data do not show of the parameters, one text each: which they do not determine or not separate, and other
-        minima."""
+        """What the data do not show of the parameters, one text each: which they do not determine or not separate, and
+        other minima."""
         lines = []
         for key in self.undetermined:
             change = self.effects[key]
@@ -326,20 +327,21 @@ class FitResult(Renamed, Shown):
             return ""
         of_data = "stated deviations" if self.measured.deviation is not None else "usual scatter"
         return (
-            f"the fit solved f to a tolerance of {percent(self.tolerance)}, which it set from the noise of the data (their {of_data}); "
-            f"the scene keeps its numerics.tolerance of {percent(own)}"
+            f"the fit solved f to a tolerance of {percent(self.tolerance)}, which it set from the noise of the data "
+            f"(their {of_data}); the scene keeps its numerics.tolerance of {percent(own)}"
         )
 
     def _one_sided(self, key: str) -> str:
-        """Return in a sentence that the data do not determine a parameter on one side, where its interval ends at a bound."""
+        """Return in a sentence that the data do not determine a parameter on one side, where its interval ends at a
+        bound."""
         (side,) = self.undetermined_sides[key]
         value, low, high = (worded_value(key, number) for number in (self.values[key], *self.intervals[key]))
         (known, bound) = (high, low) if side == "below" else (low, high)
         if key not in self.profiles:
             return f"The data do not determine it {side}: {bound} is its bound, not an end by the data"
         return (
-            f"The data do not determine it {side}: f does not change with it at {value}, and every value from {known} to its "
-            f"bound {bound} fits as well"
+            f"The data do not determine it {side}: f does not change with it at {value}, and every value from {known} "
+            f"to its bound {bound} fits as well"
         )
 
     def _model_note(self) -> str:
@@ -452,8 +454,8 @@ def _with_limit_of_fit(violation: Violation) -> Violation:
 
 
 def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray] | None) -> None:
-    """Draw ``measured`` points, and the fitted curve of which they have the ``predicted`` (n,) with its 95 % ``band``, the
-    lower and the upper end (n,); None: the fit does not describe the data, and has none."""
+    """Draw ``measured`` points, and the fitted curve of which they have the ``predicted`` (n,) with its 95 % ``band``,
+    the lower and the upper end (n,); None: the fit does not describe the data, and has none."""
     measured.draw(axes)
     order = np.argsort(x := np.abs(measured.x))
     axes.plot(x[order], predicted[order], color=figures.BLUE, label="fit" if band is not None else NO_BAND)

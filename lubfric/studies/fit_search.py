@@ -2,10 +2,10 @@
 
 The first curves are those at the start and at the points of a Sobol sequence. Their residuals are interpolated by
 radial basis functions over the parameters. The minima of the interpolated sum of squares are solved for, each new curve
-improves the interpolation, and the search ends when its minima are curves that are known. Along f_b, in which f is linear at
-a balance, further curves take no solve: there the search sees several for each solved one. (Surrogate optimisation: R.
-G. Regis and C. A. Shoemaker, INFORMS J. Comput. 19 (2007) 497-509, doi:10.1287/ijoc.1060.0182. Here the residuals are
-interpolated instead of their sum of squares, which keeps the Gauss-Newton structure.)
+improves the interpolation, and the search ends when its minima are curves that are known. Along f_b, in which f is
+linear at a balance, further curves take no solve: there the search sees several for each solved one. (Surrogate
+optimisation: R. G. Regis and C. A. Shoemaker, INFORMS J. Comput. 19 (2007) 497-509, doi:10.1287/ijoc.1060.0182. Here
+the residuals are interpolated instead of their sum of squares, which keeps the Gauss-Newton structure.)
 """
 
 import math
@@ -29,8 +29,8 @@ REFINEMENTS_PER_PARAMETER = 3
 # in the fits of `python -m verification.campaigns.estimates`.
 USUAL_REFINEMENTS = 1
 
-# Positions along f_b, as shares of the bounds, of the curves that follow from a solved one. A choice: they cost no solve, and
-# three would hold all residuals where f_b is on a linear scale.
+# Positions along f_b, as shares of the bounds, of the curves that follow from a solved one. A choice: they cost no
+# solve, and three would hold all residuals where f_b is on a linear scale.
 ALONG_LINEAR = (0.02, 0.26, 0.5, 0.74, 0.98)
 
 # Starts of the minimisation of the interpolation, in a power of two: it costs no solve. A choice: fewer may miss a
@@ -45,8 +45,9 @@ SAME_MINIMUM = 0.1
 # less takes curves that tell nothing new.
 KNOWN_DISTANCE = 0.01
 
-# Expected decrease of the sum of squares below that of a curve in the same minimum, as a share of it, from which a further curve
-# is solved there. A convention: less refines minima that the fit refines anyway, and follows valleys that the data do not close.
+# Expected decrease of the sum of squares below that of a curve in the same minimum, as a share of it, from which a
+# further curve is solved there. A convention: less refines minima that the fit refines anyway, and follows valleys that
+# the data do not close.
 LEAST_EXPECTED_DECREASE = 0.01
 
 # Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher
@@ -79,8 +80,8 @@ def sobol_count(parameters: int) -> int:
 
 
 def estimated_curves(changed: int, starts: int) -> int:
-    """Return about how many coarse curves `search_minima` solves, from so many ``starts`` of a Sobol sequence; ``changed``:
-    number of parameters whose change takes a solve."""
+    """Return about how many coarse curves `search_minima` solves, from so many ``starts`` of a Sobol sequence;
+    ``changed``: number of parameters whose change takes a solve."""
     return 1 + starts + USUAL_REFINEMENTS * changed if starts else 0
 
 
@@ -95,7 +96,8 @@ def search_minima(
     Parameters
     ----------
     starts : number of points of the Sobol sequence (0: only ``start`` is returned)
-    linear_place : of the parameter among the positions whose change takes no solve (`FitCurves.linear_place`); None: none
+    linear_place : of the parameter among the positions whose change takes no solve (`FitCurves.linear_place`); None:
+        none
     """
     from scipy.stats import qmc
 
@@ -152,8 +154,8 @@ def search_minima(
 
 
 def with_minimum(curves: FitCurves, minima: Sequence[Candidate], unit: np.ndarray) -> list[Candidate]:
-    """Return ``minima`` of the coarse ``curves`` with a lower one at ``unit`` that their search missed, as the first. It was
-    reached from the former first one: what larger residuals part from that, they part from the new one."""
+    """Return ``minima`` of the coarse ``curves`` with a lower one at ``unit`` that their search missed, as the first.
+    It was reached from the former first one: what larger residuals part from that, they part from the new one."""
     try:
         misfit = float(np.sqrt(np.mean(curves.residuals(unit) ** 2)))
     except LubfricError:

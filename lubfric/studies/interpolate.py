@@ -7,8 +7,9 @@ t/sqrt(U) is interpolated over 1/sqrt(U). Two known trends of the share are remo
 (1 - s)/s of film to asperity load grows about in proportion to the speed, and at lift-off U_0 the share ends like that
 of one Hertz asperity, as (1 - U/U_0)^(3/2). The remainder, ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is
 interpolated over U^0.6, which grows about as the film does, with the slopes that are known at the points. All
-interpolations are cubic splines. Both parts go through all points, also those where they carry hardly any load. Other cubics, and where the points are far apart a monotone cubic and a line through f
-itself, are compared with them to estimate the error.
+interpolations are cubic splines. Both parts go through all points, also those where they carry hardly any load. Other
+cubics, and where the points are far apart a monotone cubic and a line through f itself, are compared with them to
+estimate the error.
 """
 
 from __future__ import annotations
@@ -49,8 +50,8 @@ BEYOND = 1.03
 # less narrows an error that is not measured.
 EXTRAPOLATED_ERROR = 0.05
 
-# The same of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A choice: at 1 the
-# contact would end at a solved speed, and the interpolation overshoots between the others.
+# The same of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A choice: at
+# 1 the contact would end at a solved speed, and the interpolation overshoots between the others.
 MIDDLE_ERROR = 0.5
 
 # Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
@@ -58,8 +59,9 @@ MIDDLE_ERROR = 0.5
 WIDEST_BRACKET = 2.0
 
 # Ratios of neighbouring speeds: up to NEAR_SPEEDS a curve that leaves a point out shows the order of the interpolation,
-# and from FAR_SPEEDS on it does not. These, and the factors below, are chosen so that on subsets of 3 to 25 speeds of four
-# dense curves the error holds at 97 % of the speeds left out (tests/studies/test_errors_between_speeds.py has one of them).
+# and from FAR_SPEEDS on it does not. These, and the factors below, are chosen so that on subsets of 3 to 25 speeds of
+# four dense curves the error holds at 97 % of the speeds left out (tests/studies/test_errors_between_speeds.py has one
+# of them).
 NEAR_SPEEDS = 2.0
 FAR_SPEEDS = 7.4
 
@@ -196,20 +198,21 @@ class Interpolant:
 
     @property
     def _is_lift_off_extrapolated(self) -> bool:
-        """Whether the place of lift-off is an extrapolation of the film; else it is the middle of the solved speeds around
-        it, because the clearance of the film is not known."""
+        """Whether the place of lift-off is an extrapolation of the film; else it is the middle of the solved speeds
+        around it, because the clearance of the film is not known."""
         s = self.samples
         return bool(np.isfinite(s.clearance[s.contacts]))
 
     @property
     def lifted(self) -> float:
-        """Lift-off [m/s] in the direction of the curve; NaN without one, and where the points do not support its place."""
+        """Lift-off [m/s] in the direction of the curve; NaN without one, and where the points do not support its
+        place."""
         return self.sense * self.lift_off if self.lift_off is not None and self.is_lift_off_supported else np.nan
 
     @property
     def lift_off_range(self) -> tuple[float, float]:
-        """(lowest, highest) speed [m/s] that lift-off may have, by the points alone, without the sign: where they do not
-        support its place, or it is not extrapolated, the solved speeds around it. NaN without a lift-off."""
+        """(lowest, highest) speed [m/s] that lift-off may have, by the points alone, without the sign: where they do
+        not support its place, or it is not extrapolated, the solved speeds around it. NaN without a lift-off."""
         if self.is_lift_off_supported and self._is_lift_off_extrapolated:
             return self._extrapolated_range
         return self.bracket
@@ -234,9 +237,9 @@ class Interpolant:
     def error(self, speed: FloatArray) -> np.ndarray:
         """Return the estimated relative error at speeds [m/s]. It is the largest of these: the difference between the
         two kinds of cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends
-        there; a multiple of the error at the neighbouring points when the curve goes through the other points only; and,
-        where the neighbouring points are far apart, the differences from a monotone cubic and from the line through f
-        itself."""
+        there; a multiple of the error at the neighbouring points when the curve goes through the other points only;
+        and, where the neighbouring points are far apart, the differences from a monotone cubic and from the line
+        through f itself."""
         speed = np.asarray(speed, dtype=float)
         value = self.at(speed)
         right = np.clip(np.searchsorted(self.samples.speed, speed), 1, self.samples.speed.size - 1)
@@ -283,7 +286,8 @@ class Interpolant:
 
     @property
     def _other_ends(self) -> list[Interpolant]:
-        """The curves with lift-off at the ends of its range, and with other powers with which the contact ends there."""
+        """The curves with lift-off at the ends of its range, and with other powers with which the contact ends
+        there."""
         if self.lift_off is None:
             return []
         s = self.samples
@@ -332,8 +336,8 @@ class Interpolant:
     ) -> np.ndarray:
         """Return a ``part`` of f at ``speed``, through what is ``solved`` of it.
 
-        A point at which a part carries hardly any load is not used for its interpolation (`LITTLE`, `LEAST_LOAD_RATIO`). A monotone
-        cubic over ln U joins what the interpolation leaves at the points.
+        A point at which a part carries hardly any load is not used for its interpolation (`LITTLE`,
+        `LEAST_LOAD_RATIO`). A monotone cubic over ln U joins what the interpolation leaves at the points.
         """
         s = self.samples
         value = part(speed, smooth=smooth)
@@ -407,7 +411,8 @@ class Interpolant:
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
     """Return the curve through points with these ``numbers`` and the column of their numerical error, as
-    `lubfric.quantities` names them. Raises `InputError` for speeds of both directions and for fewer than three different ones."""
+    `lubfric.quantities` names them. Raises `InputError` for speeds of both directions and for fewer than three
+    different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")
@@ -415,7 +420,8 @@ def through(numbers: dict[str, np.ndarray]) -> Interpolant:
     good = good[np.argsort(np.abs(speed[good]))]
     if good.size < FEWEST_SPEEDS or np.unique(speed[good]).size < good.size:
         raise InputError(
-            f"{counted(good.size, 'speeds')} {'is' if good.size == 1 else 'are'} solved; a curve between them needs {FEWEST_SPEEDS} different ones"
+            f"{counted(good.size, 'speeds')} {'is' if good.size == 1 else 'are'} solved; a curve between them needs "
+            f"{FEWEST_SPEEDS} different ones"
         )
     solved = {name: values[good] for name, values in numbers.items()}
     total = solved["contact_load"] + solved["film_load"]

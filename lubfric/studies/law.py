@@ -25,8 +25,8 @@ USABLE_ERROR = 0.02
 # Fewest points of a law. A choice: more than the law has parameters.
 FEWEST_POINTS = 12
 
-# Largest relative deviation of a law from the curves to which it is fitted, above which it has a warning. A choice, as wide
-# as many intervals of f: above it the formula, and not f, limits what a simulation shows.
+# Largest relative deviation of a law from the curves to which it is fitted, above which it has a warning. A choice, as
+# wide as many intervals of f: above it the formula, and not f, limits what a simulation shows.
 LARGEST_OF_LAW = 0.1
 
 MORE_SPEEDS = "solve more speeds, or speeds='auto'"
@@ -132,7 +132,8 @@ class Law(Shown):
 
     @property
     def error_in_words(self) -> str:
-        """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as text."""
+        """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as
+        text."""
         of_points = (
             f"whose points are known within {100 * self.interval:.2g} % (95 %, model included)"
             if np.isfinite(self.interval)
@@ -146,8 +147,8 @@ class Law(Shown):
         if self.largest <= LARGEST_OF_LAW:
             return ""
         return (
-            f"warning: the formula deviates by up to {100 * self.largest:.2g} % from the solved curves, above {100 * LARGEST_OF_LAW:g} %. "
-            "Recommendation: interpolate the table of the curve"
+            f"warning: the formula deviates by up to {100 * self.largest:.2g} % from the solved curves, above "
+            f"{100 * LARGEST_OF_LAW:g} %. Recommendation: interpolate the table of the curve"
         )
 
     @property
@@ -274,8 +275,8 @@ def _check_numerical_errors(curve: Interpolant) -> None:
     worst = int(np.argmax(s.numerical))
     if s.numerical[worst] > LARGE_NUMERICAL_ERROR:
         raise InputError(
-            f"the numerical error of f at {s.speed[worst]:.4g} m/s is {percent(float(s.numerical[worst]))}, and a formula needs at most "
-            f"{percent(LARGE_NUMERICAL_ERROR)}",
+            f"the numerical error of f at {s.speed[worst]:.4g} m/s is {percent(float(s.numerical[worst]))}, and a "
+            f"formula needs at most {percent(LARGE_NUMERICAL_ERROR)}",
             recommendation="see the warnings of that point, or omit its speed",
         )
 

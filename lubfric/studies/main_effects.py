@@ -19,8 +19,8 @@ POINTS_FOR_EACH = 6
 # Correlation of two inputs from which their shares are not told apart. A convention.
 MOST_CORRELATED = 0.3
 
-# Points of an axis at each value of an input, on average, from which these are groups where other inputs change along that
-# axis; else a parabola is laid through all points. A choice: one each has no scatter in a group.
+# Points of an axis at each value of an input, on average, from which these are groups where other inputs change along
+# that axis; else a parabola is laid through all points. A choice: one each has no scatter in a group.
 POINTS_IN_GROUP = 2
 
 # Ratio of the largest to the smallest value from which a number counts by its logarithm. A choice: it changes the
@@ -28,24 +28,25 @@ POINTS_IN_GROUP = 2
 WIDE = 3.0
 
 
-# Sets of errors of f that are drawn for the interval of a share, and the seed of these draws. A choice: fewer scatter by more than a
-# digit shown.
+# Sets of errors of f that are drawn for the interval of a share, and the seed of these draws. A choice: fewer scatter
+# by more than a digit shown.
 ERROR_DRAWS = 400
 ERROR_SEED = 0
 
 # Ends of the interval of a share, in percent of the draws. A convention: 95 %.
 ENDS_OF_INTERVAL = (2.5, 97.5)
 
-# Half width of an interval at 95 % over the standard deviation of a normal error: it follows from the normal distribution.
+# Half width of an interval at 95 % over the standard deviation of a normal error: it follows from the normal
+# distribution.
 HALF_WIDTH_OF_NORMAL = 1.96
 
 
 class MainEffect(NamedTuple):
     """Effect of one input of a study.
 
-    ``share``: of the variance of ln |f| over the points, by this input alone; ``slope``: sign of the change of |f| with it,
-    0 for words; ``interval``: (lowest, highest) share within the numerical, sampling and model-form errors of f at 95 %, NaN where one
-    of them is not known.
+    ``share``: of the variance of ln |f| over the points, by this input alone; ``slope``: sign of the change of |f| with
+    it, 0 for words; ``interval``: (lowest, highest) share within the numerical, sampling and model-form errors of f at
+    95 %, NaN where one of them is not known.
     """
 
     share: float
@@ -56,9 +57,9 @@ class MainEffect(NamedTuple):
 def main_effects(result: Any) -> dict[str, MainEffect]:
     """Return the `MainEffect` of every input that a `StudyResult` varies, by its key, the largest first.
 
-    The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order index
-    of Sobol); of a number that seldom repeats, that of a parabola in the number, or in its logarithm where it varies by
-    more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
+    The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order
+    index of Sobol); of a number that seldom repeats, that of a parabola in the number, or in its logarithm where it
+    varies by more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
     together, as those along a path of contact do. What only says where an operating point lies is no input.
     """
     columns = columns_of_study(result)
@@ -93,15 +94,16 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
 
 
 def _coordinate(values: np.ndarray) -> np.ndarray:
-    """Return the ``values`` of an input as numbers: of words their place in the alphabet, of a wide range logarithms."""
+    """Return the ``values`` of an input as numbers: of words their place in the alphabet, of a wide range
+    logarithms."""
     if values.dtype.kind != "f":
         return np.unique(values.astype(str), return_inverse=True)[1].astype(float)
     return np.log(values) if values.min() > 0 and values.max() > WIDE * values.min() else values
 
 
 def is_scattered(result: Any, key: str) -> bool:
-    """Return whether a ``key`` that a `StudyResult` varies seldom repeats its values along an axis that other inputs share, as in a
-    sample: what these do is then in the mean of f at each value."""
+    """Return whether a ``key`` that a `StudyResult` varies seldom repeats its values along an axis that other inputs
+    share, as in a sample: what these do is then in the mean of f at each value."""
     (dim, values) = result.coords[key]
     inputs = {SPEED, *(name for axis in result.plan.axes for name in axis.keys)}
     others = [
@@ -113,8 +115,8 @@ def is_scattered(result: Any, key: str) -> bool:
 
 
 def _independent_errors(columns: dict[str, np.ndarray], known: np.ndarray) -> np.ndarray:
-    """Return the standard deviation of ln |f| at the ``known`` points by the errors that differ from point to point; NaN where
-    one of these is not known."""
+    """Return the standard deviation of ln |f| at the ``known`` points by the errors that differ from point to point;
+    NaN where one of these is not known."""
     unknown = np.full(known.shape, np.nan)
     numerical, model, sampling = (
         columns.get(f"{name}_error", unknown)[known] for name in ("numerical", "model", "sampling")
@@ -123,8 +125,8 @@ def _independent_errors(columns: dict[str, np.ndarray], known: np.ndarray) -> np
 
 
 def _share(x: np.ndarray, y: np.ndarray, *, is_fitted: bool) -> float:
-    """Return the share of the variance of ``y`` that ``x`` explains; ``is_fitted``: by a parabola, else by the means at each
-    value."""
+    """Return the share of the variance of ``y`` that ``x`` explains; ``is_fitted``: by a parabola, else by the means at
+    each value."""
     if not is_fitted:
         (_, place, count) = np.unique(x, return_inverse=True, return_counts=True)
         means = (np.bincount(place, y) / count)[place]

@@ -66,8 +66,8 @@ KELVIN = "lubricant.temperature"
 @dataclass(frozen=True, kw_only=True)
 class OperatingPoints:
     """A table of operating points: ``axis`` with a row of values [SI] for each point, by the keys of a scene;
-    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number, among them R1, R2, u1, u2
-    and sliding_speed as they were given; ``notes``: how columns without a unit were read, in sentences."""
+    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number, among them R1, R2, u1,
+    u2 and sliding_speed as they were given; ``notes``: how columns without a unit were read, in sentences."""
 
     axis: Axis
     speeds: tuple[float, ...]
@@ -82,9 +82,10 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     ----------
     scene : gives what the table does not
     table : a path of a text file with headings, a list of rows (dicts), a dict of columns, or a pandas DataFrame. A
-        column is a key of a scene ("bodies.load"), or one of radius, R1, R2, width, load, hertz_pressure, speed, u1, u2,
-        sliding_speed, slide_roll_ratio, slip_percent, temperature, viscosity; or position, angle, time, duration, which change no
-        number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
+        column is a key of a scene ("bodies.load"), or one of radius, R1, R2, width, load, hertz_pressure, speed, u1,
+        u2, sliding_speed, slide_roll_ratio, slip_percent, temperature, viscosity; or position, angle, time, duration,
+        which change no number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a
+        temperature has to
 
     Raises
     ------
@@ -123,8 +124,8 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
 
 
 def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
-    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `NAMED_COLUMNS`; and how those
-    without a unit were read, in sentences."""
+    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `NAMED_COLUMNS`; and how
+    those without a unit were read, in sentences."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
         headings = table_headings(path, (*COLUMN_NAMES, TEMPERATURE, *NAMED_COLUMNS, *KEYS))

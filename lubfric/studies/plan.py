@@ -241,7 +241,8 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     - ``points``: a table of operating points: a text file relative to this one, or [[points]] with a table for each.
     - [vary]: keys with lists of values.
     - [[together]]: keys whose lists go together.
-    - [sample]: keys with {low, high, scale}, and count, sampler, seed; with "speed" among the keys its points are operating points.
+    - [sample]: keys with {low, high, scale}, and count, sampler, seed; with "speed" among the keys its points are
+      operating points.
 
     ``points``: a file of operating points, instead of those of the study file; then ``path`` may also be a scene.
 

@@ -187,7 +187,8 @@ def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
             value=100 * at_95 * uncertainty.sampling,
             limit=100 * at_95 * uncertainty.tolerance,
             unit="%",
-            consequence=f"{standard_error_in_words(uncertainty.tolerance)}, sets this limit; the interval of f includes the error",
+            consequence=f"{standard_error_in_words(uncertainty.tolerance)}, sets this limit; the interval of f "
+            "includes the error",
             recommendation=f"give a map of about {times:.2g} times the area" if times > 1 else "",
             effect=at_95 * uncertainty.sampling,
         )

@@ -212,7 +212,8 @@ class StudyResult(Renamed, Shown):
         return float(means) if means.ndim == 0 else means
 
     def counts_in_means(self, index: tuple[int, ...] = ()) -> np.ndarray:
-        """Return which operating points, (n,), count in means of f (`is_by_sliding`), at the ``index`` of the other axes."""
+        """Return which operating points, (n,), count in means of f (`is_by_sliding`), at the ``index`` of the other
+        axes."""
         return is_by_sliding({name: values[index] for name, values in self.columns.items()})
 
     def mean_interval(self, name: str) -> tuple[np.ndarray | float, np.ndarray | float]:

@@ -15,10 +15,11 @@ from .vary import Axis
 
 
 def study_toml(plan: Any, scene: str) -> str:
-    """Return a `StudyPlan` as the text of a study file of the file ``scene``, which holds the scene of the plan, all numbers in SI units.
+    """Return a `StudyPlan` as the text of a study file of the file ``scene``, which holds the scene of the plan, all
+    numbers in SI units.
 
-    Of operating points, the speeds and radii of single surfaces are left out: the numbers of the scene that follow from them are
-    there. Raises `InputError` for values that a study file cannot hold.
+    Of operating points, the speeds and radii of single surfaces are left out: the numbers of the scene that follow from
+    them are there. Raises `InputError` for values that a study file cannot hold.
     """
     lines = [f"scene = {toml_value(scene)}"]
     if plan.chooses_speeds:

@@ -21,30 +21,33 @@ if TYPE_CHECKING:
 # Lines of a plot, at most. A choice, by looking at the figures.
 MOST_PLOTTED_LINES = 500
 
-# Lines of a plot that get a label each, at most, where they do not differ in one number. A choice, by looking at the figures.
+# Lines of a plot that get a label each, at most, where they do not differ in one number. A choice, by looking at the
+# figures.
 NAMED = 10
 
-# Values of a number that are named with their colour, at most; more are read off a bar. A choice, by looking at the figures.
+# Values of a number that are named with their colour, at most; more are read off a bar. A choice, by looking at the
+# figures.
 NAMED_SHADES = 6
 
 # Part of the colours that are dark enough to be seen on white [-]: without yellow. A choice, by looking at the figures.
 DARK_SHADES = 0.85
 
-# Markers and dashes of the combinations of what else is varied, one pair for each; more have none. A choice, by looking at
-# the figures.
+# Markers and dashes of the combinations of what else is varied, one pair for each; more have none. A choice, by looking
+# at the figures.
 STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
 
 # Lines whose intervals are drawn as bands, at most. A choice, by looking at the figures: more bands hide each other.
 MOST_BANDS = 4
 
-# Distance of lines beside each other over a name, as a part of the distance of names. A choice, by looking at the figures.
+# Distance of lines beside each other over a name, as a part of the distance of names. A choice, by looking at the
+# figures.
 BESIDE = 0.12
 
 # Values of an axis that are its ticks, at most. A choice, by looking at the figures.
 MOST_VALUE_TICKS = 8
 
-# Width of a letter of a tick over the size of its font, and blank between two ticks in letters. Choices, by looking at the
-# figures.
+# Width of a letter of a tick over the size of its font, and blank between two ticks in letters. Choices, by looking at
+# the figures.
 TICK_LETTER = 0.62
 TICK_BLANK = 1.5
 
@@ -130,8 +133,9 @@ class LineStyles:
 
 
 def _line_styles(plan: StudyPlan, indices: Sequence[tuple[int, ...]], along: int) -> LineStyles:
-    """Return how the lines at ``indices`` are told apart, which run along the axis number ``along``: by colours where one
-    thing is varied; by colours of one and, if these are few, markers and dashes of the combinations of the others."""
+    """Return how the lines at ``indices`` are told apart, which run along the axis number ``along``: by colours where
+    one thing is varied; by colours of one and, if these are few, markers and dashes of the combinations of the
+    others."""
     sizes = np.array([max(index[axis] for index in indices) + 1 for axis in range(len(plan.dims))])
     varied = [axis for axis in range(len(plan.dims)) if axis != along and sizes[axis] > 1]
     if not varied:

@@ -105,8 +105,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @cached_property
     def minimum(self) -> Minimum:
-        """The least f between the solved speeds, with its 95 % interval: it combines the error of the interpolation with the
-        wider interval of the two solved points beside it."""
+        """The least f between the solved speeds, with its 95 % interval: it combines the error of the interpolation
+        with the wider interval of the two solved points beside it."""
         least = self._curve.minimum()
         f = self.coefficient
         beside = _around(self.speed, f, least.speed)
@@ -127,8 +127,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     def law(self) -> Law:
         """Return the curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
-        ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f is not interpolated between the speeds
-        within 5 %, or the numerical error of a point is above 20 %."""
+        ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f is not interpolated between the
+        speeds within 5 %, or the numerical error of a point is above 20 %."""
         if self.between > DRAWN_ERROR:
             limit = f"a formula needs at most {percent(DRAWN_ERROR)}"
             error = percent(self.between) if np.isfinite(self.between) else "not known"
@@ -144,7 +144,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
 
 def _around(speeds: np.ndarray, f: np.ndarray, place: float) -> np.ndarray:
-    """Return the indices of the two solved points, of those with an ``f``, between whose ``speeds`` a ``place`` [m/s] lies."""
+    """Return the indices of the two solved points, of those with an ``f``, between whose ``speeds`` a ``place`` [m/s]
+    lies."""
     solved = np.flatnonzero(np.isfinite(f) & (speeds != 0))
     solved = solved[np.argsort(np.abs(speeds[solved]))]
     right = np.searchsorted(np.abs(speeds[solved]), abs(place)).clip(1, solved.size - 1)
@@ -176,10 +177,10 @@ def stribeck(
     Parameters
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
-    speeds : entrainment speeds [m/s], (n,); None: the scene's own ``motion.speeds``, without ``motion.entrainment_speed``, which
-        ``lubfric run`` adds as the operating point of its report; "auto": at most 25, so that ``curve.at(speed)`` is
-        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On strips of the surface that
-        is the root sum of squares of the tolerance and the sampling tolerance
+    speeds : entrainment speeds [m/s], (n,); None: the scene's own ``motion.speeds``, without
+        ``motion.entrainment_speed``, which ``lubfric run`` adds as the operating point of its report; "auto": at most
+        25, so that ``curve.at(speed)`` is within the tolerance on f everywhere between, and ``curve.lift_off`` is
+        enclosed. On strips of the surface that is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
     fine_fields : whether the kept fields are solved again on cells fine enough for a picture, as ``fields="fine"`` of
@@ -391,7 +392,8 @@ def traction(
 def _solved_ratios(
     base: Prepared, ratios: list[float], speed: float, executor: Any, store: str | Path | None
 ) -> Iterator[tuple[float, Outcome]]:
-    """Yield each of the ``ratios`` with its outcome at ``speed`` [m/s], as they end; those that ``store`` has come from there."""
+    """Yield each of the ``ratios`` with its outcome at ``speed`` [m/s], as they end; those that ``store`` has come from
+    there."""
     models = at_ratios(base, ratios)
     by_key = dict(zip(map(key_of, models), ratios))
     with opened(store) as folder:

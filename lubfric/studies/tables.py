@@ -90,15 +90,15 @@ def to_netcdf(result: Any, path: str | Path) -> None:
 
 
 def to_csv(result: Any, path: str | Path) -> None:
-    """Write one row for each point, with units in the headings; nothing beyond the standard library is needed. The bytes
-    follow from the inputs: the times of the solves are in the other tables."""
+    """Write one row for each point, with units in the headings; nothing beyond the standard library is needed. The
+    bytes follow from the inputs: the times of the solves are in the other tables."""
     columns = {name: values for name, values in columns_of_study(result).items() if name != "seconds"}
     write_whole(path, table_bytes({heading(name): values for name, values in columns.items()}))
 
 
 def columns_of_study(result: Any) -> dict[str, np.ndarray]:
-    """Return the columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
-    each point. Places that a curve did not need have no row."""
+    """Return the columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value
+    for each point. Places that a curve did not need have no row."""
     shape = result.status.shape
     columns = {}
     for key, (dim, values) in result.coords.items():
@@ -114,8 +114,9 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
 
-    Points without a position are not joined: rows of a table have no order. The lines of f and of the power loss are broken where the
-    direction of sliding changes, as at the pitch point of a gear: f jumps there, and the power loss falls to that of rolling.
+    Points without a position are not joined: rows of a table have no order. The lines of f and of the power loss are
+    broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there, and the power loss
+    falls to that of rolling.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -156,8 +157,8 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
 
 
 def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
-    """Return the direction of sliding, of u2 - u1 (-1, 0, 1), of the operating points at the position ``index`` along the other
-    axes."""
+    """Return the direction of sliding, of u2 - u1 (-1, 0, 1), of the operating points at the position ``index`` along
+    the other axes."""
     senses = np.sign(result.plan.point_speeds)
     if SLIDE_ROLL_RATIO_KEY in result.coords:
         dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
@@ -201,8 +202,8 @@ def place_in_words(plan: StudyPlan, index: tuple[Any, ...], speed: float) -> str
 
 
 def label(plan: StudyPlan, index: tuple[Any, ...], *, uses_symbols: bool = False) -> str:
-    """Return what is varied at the position ``index`` along the axes of a study, as text; ``uses_symbols``: as in the key of a
-    picture, "Sq = 50 nm" where the label of a quantity ends with its symbol (`SYMBOL_AT_END`)."""
+    """Return what is varied at the position ``index`` along the axes of a study, as text; ``uses_symbols``: as in the
+    key of a picture, "Sq = 50 nm" where the label of a quantity ends with its symbol (`SYMBOL_AT_END`)."""
     places = dict(zip(plan.dims, index))
     along = {
         key: values[places[dim]]
@@ -294,8 +295,9 @@ def friction_over_speed(
     **style: Any,
 ) -> np.ndarray:
     """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
-    `interval_band`; ``without``: names of parts that are omitted), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
-    drawn, in order: those that failed, and rest, are omitted."""
+    `interval_band`; ``without``: names of parts that are omitted), by the ``columns`` of a `lubfric.StribeckResult`;
+    between its points where f is `DRAWN_ERROR` there. Returns the indices of the points drawn, in order: those that
+    failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -355,8 +357,8 @@ def plot_map(
     """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
     ``"motion.slide_roll_ratio"``, each in a unit in which its largest value is 1 or more.
 
-    ``size``: width and height [inch]. Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
-    of which there are two at least.
+    ``size``: width and height [inch]. Points that have no number are marked. Raises `InputError` unless the two keys
+    are its only dimensions, and numbers of which there are two at least.
     """
     coords = study.coords
     for key in (across, up):

@@ -47,9 +47,9 @@ class Gap:
     def text(self) -> str:
         """The gap in a sentence."""
         return (
-            f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the solved points do not determine f, which "
-            f"may be up to {self.change:.2g} above the line between them. Solve more ratios between them, such as "
-            f"{', '.join(f'{ratio:.3g}' for ratio in self.ratios)}"
+            f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the solved points do not determine f, "
+            f"which may be up to {self.change:.2g} above the line between them. Solve more ratios between them, such "
+            f"as {', '.join(f'{ratio:.3g}' for ratio in self.ratios)}"
         )
 
     @property
@@ -65,8 +65,8 @@ class Gap:
 def gaps_of(ratio: Sequence[float] | FloatArray, coefficient: FloatArray, half_width: FloatArray) -> list[Gap]:
     """Return the neighbouring points between which f is not known, by ascending ratio.
 
-    ``ratio`` (n,) in any order, of one sign or 0, else none are returned: f then changes its sign. ``coefficient`` (n,), NaN
-    where it is not known; ``half_width`` (n,) of its intervals, NaN where these are not known.
+    ``ratio`` (n,) in any order, of one sign or 0, else none are returned: f then changes its sign. ``coefficient``
+    (n,), NaN where it is not known; ``half_width`` (n,) of its intervals, NaN where these are not known.
     """
     slip = np.abs(np.asarray(ratio, float))
     if np.min(ratio, initial=0.0) < 0.0 < np.max(ratio, initial=0.0):

@@ -1,4 +1,5 @@
-"""What the store of a run keeps of its Stribeck or traction curve: which points were requested, and which of them are solved."""
+"""What the store of a run keeps of its Stribeck or traction curve: which points were requested, and which of them are
+solved."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +13,8 @@ from .points import Outcome, at_ratios, key_of
 from .store import CHOSEN, OUTCOME, Store, digest, point_key
 from .sweep import curve_of, traction_of
 
-# Key of what was requested of a Stribeck curve: its scene, the key of that, and the speeds [m/s], beside those that it chooses.
+# Key of what was requested of a Stribeck curve: its scene, the key of that, and the speeds [m/s], beside those that it
+# chooses.
 REQUEST = "curve"
 REQUESTED = tuple[Scene, str, tuple[float, ...]]
 
@@ -59,16 +61,16 @@ def keys_of_ratios(prepared: Prepared, ratios: Sequence[float]) -> dict[float, s
 
 
 def keep_request(folder: Path, prepared: Prepared, speeds: Sequence[float]) -> None:
-    """Keep in the store ``folder`` what a run requests of its Stribeck curve, with what interrupted runs of the scene requested;
-    ``speeds`` [m/s], none: the curve chooses them."""
+    """Keep in the store ``folder`` what a run requests of its Stribeck curve, with what interrupted runs of the scene
+    requested; ``speeds`` [m/s], none: the curve chooses them."""
     store = Store(folder)
     (_, _, earlier) = store.get(REQUEST, REQUESTED) or (None, "", ())
     store.add(REQUEST, (prepared.scene, key_of(prepared), tuple(dict.fromkeys((*earlier, *speeds)))))
 
 
 def keep_ratios(folder: Path, scene: Scene, keys: Mapping[float, str]) -> None:
-    """Keep in the store ``folder`` what a run requests of its traction curve of ``scene``, with what interrupted runs requested;
-    ``keys``: of each slide-roll ratio (`keys_of_ratios`)."""
+    """Keep in the store ``folder`` what a run requests of its traction curve of ``scene``, with what interrupted runs
+    requested; ``keys``: of each slide-roll ratio (`keys_of_ratios`)."""
     store = Store(folder)
     (_, _, ratios, earlier) = store.get(REQUEST_OF_RATIOS, REQUESTED_RATIOS) or (None, 0.0, (), ())
     together = dict(zip(ratios, earlier)) | dict(keys)
@@ -94,7 +96,8 @@ def count_of_kept(folder: Path, prepared: Prepared, speeds: Sequence[float]) -> 
 
 
 def count_of_kept_ratios(folder: Path, speed: float, keys: Mapping[float, str]) -> int:
-    """Return how many slide-roll ratios have a record at ``speed`` [m/s] in the store ``folder``; ``keys``: of each of them."""
+    """Return how many slide-roll ratios have a record at ``speed`` [m/s] in the store ``folder``; ``keys``: of each of
+    them."""
     store = Store(folder)
     return sum(_has_point(store, key, speed) for key in keys.values())
 

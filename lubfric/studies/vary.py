@@ -190,8 +190,8 @@ def check_key(
 
 
 def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> NoReturn:
-    """Raise `InputError` for a ``key`` whose section is none of ``sections``: with the keys of that name, or the nearest
-    one, and the form that a key has."""
+    """Raise `InputError` for a ``key`` whose section is none of ``sections``: with the keys of that name, or the
+    nearest one, and the form that a key has."""
     names = [
         f"{section}.{name}"
         for section in sections
@@ -206,8 +206,8 @@ def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> N
     meant = f" (did you mean {' or '.join(map(repr, candidates))}?)" if candidates else ""
     raise InputError(
         f"{what}: {validate.shown(key)} is not a key of a scene{meant}",
-        recommendation="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
-        "names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
+        recommendation="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of "
+        "such names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
     )
 
 

@@ -1,8 +1,8 @@
 """The material ratio (Abbott-Firestone) curve of a height map, and the parameters Sk, Spk, Svk read from it.
 
-Sources: ISO 25178-2:2021, functional parameters of stratified surfaces; the construction is that of ISO 13565-2:1996 and
-ISO 21920-2:2021 for profiles. The standards apply the parameters to an S-shaped curve, after filters that take form and
-long waves away (`Surface.level`, `Surface.filtered`).
+Sources: ISO 25178-2:2021, functional parameters of stratified surfaces; the construction is that of ISO 13565-2:1996
+and ISO 21920-2:2021 for profiles. The standards apply the parameters to an S-shaped curve, after filters that take form
+and long waves away (`Surface.level`, `Surface.filtered`).
 """
 
 from __future__ import annotations

@@ -295,8 +295,8 @@ def _longer_map(axis: str, length: float, needed: float) -> str:
     """Return as text how a map of this ``length`` [m] along an ``axis`` becomes as long as ``needed`` [m]."""
     times = max(math.ceil(needed / length), 2)
     return (
-        f"make the map at least {worded(needed, 'm')} long along {axis} (contact.shape times contact.spacing in a scene), or set "
-        f"surface.oversize = {times}, which uses the middle of a longer map"
+        f"make the map at least {worded(needed, 'm')} long along {axis} (contact.shape times contact.spacing in a "
+        f"scene), or set surface.oversize = {times}, which uses the middle of a longer map"
     )
 
 

@@ -394,8 +394,9 @@ def names_size(statement: Statement) -> bool:
 def directions_by_sizes(
     header: Header, lines: int, columns: int, spacing: tuple[float, float] | None
 ) -> tuple[set[bool], list[Statement]]:
-    """Return which directions of x (True: along a line of the file) agree with the width and the height that lines state
-    without a unit, and these lines. Both are counts; or lengths in any unit, where the ``spacing`` [m] is known."""
+    """Return which directions of x (True: along a line of the file) agree with the width and the height that lines
+    state without a unit, and these lines. Both are counts; or lengths in any unit, where the ``spacing`` [m] is
+    known."""
     stated = {name: header.sizes.get(name) or header.unitless.get(name) for name in ("width", "height")}
     sizes = {name: statement for name, statement in stated.items() if statement is not None}
     if not sizes:
@@ -471,7 +472,8 @@ def grid_of(
 ) -> TablePlacement:
     """Return how a table lies in the plane, by its ``header``. Raise `InputError` where they contradict each other.
 
-    directions : of x that the sizes without a unit leave (`directions_by_sizes`); one alone decides what nothing else does
+    directions : of x that the sizes without a unit leave (`directions_by_sizes`); one alone decides what nothing else
+        does
     """
     _agree(header, "columns", columns, "numbers in a line")
     _agree(header, "lines", lines, "lines")

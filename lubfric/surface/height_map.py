@@ -29,8 +29,8 @@ class Surface(FrozenArrays, Shown):
 
     Attributes
     ----------
-    heights : (nx, ny) [m], upwards, at most 1 km; read-only. Unmeasured points are NaN until `fill` is called. The unit and
-        the coordinates of an `xarray.DataArray` have to agree with metres and ``spacing``
+    heights : (nx, ny) [m], upwards, at most 1 km; read-only. Unmeasured points are NaN until `fill` is called. The unit
+        and the coordinates of an `xarray.DataArray` have to agree with metres and ``spacing``
     spacing : (dx, dy) [m]; one number means equal
     mask : (nx, ny), True where measured, also after filling. None: everywhere, or where a masked array is not masked
     periodic_axes : whether the map continues smoothly onto itself along x and along y

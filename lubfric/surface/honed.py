@@ -1,9 +1,9 @@
 """Plateau-honed surfaces, made by two processes: grooves of a coarse stone that cross, and a fine stone that cuts their
 tops to plateaus.
 
-The height at a point is the lower of both processes, as in a plateau that was honed in two steps. The model is attributed
-to M. C. Malburg, J. Raja, D. J. Whitehouse, CIRP Annals 42 (1993) 637-639; their text was not available here. Then core,
-peaks and dales are scaled each by a factor of its own, so that Sk, Spk and Svk are met in every map.
+The height at a point is the lower of both processes, as in a plateau that was honed in two steps. The model is
+attributed to M. C. Malburg, J. Raja, D. J. Whitehouse, CIRP Annals 42 (1993) 637-639; their text was not available
+here. Then core, peaks and dales are scaled each by a factor of its own, so that Sk, Spk and Svk are met in every map.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ class Honing:
 def honed_heights(
     honing: Honing, shape: tuple[int, int], spacing: tuple[float, float]
 ) -> Callable[[np.ndarray, np.random.Generator], np.ndarray]:
-    """Return the function that makes heights [m] (nx, ny), periodic, of a plateau (nx, ny) of any scale and a generator.
+    """Return the function that makes heights [m] (nx, ny), periodic, of a plateau (nx, ny) of any scale and a
+    generator.
 
     Raises `InputError` for grooves that the cells do not resolve, or a map too short for them.
     """
@@ -128,7 +129,8 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
 
 @lru_cache(maxsize=64)
 def honed_sq(sk: float, spk: float, svk: float) -> float:
-    """Return the root mean square height [m] of a plateau-honed surface with these Sk, Spk and Svk [m], within 0.5 %."""
+    """Return the root mean square height [m] of a plateau-honed surface with these Sk, Spk and Svk [m], within 0.5
+    %."""
     random = np.random.default_rng(0)
     plateau, *families = random.standard_normal((3, SAMPLES))
     return float(_stratified(Honing(sk=sk, spk=spk, svk=svk), plateau, families).std())

@@ -34,8 +34,8 @@ def check_labels(heights: Any, spacing: tuple[float, float]) -> None:
 
 
 def _check_coordinate(coordinate: Any, axis: Any, step: float) -> None:
-    """Raise `InputError` where a ``coordinate`` of floating point is not one of even steps of ``step`` [m]; whole numbers
-    count points."""
+    """Raise `InputError` where a ``coordinate`` of floating point is not one of even steps of ``step`` [m]; whole
+    numbers count points."""
     values = np.asarray(coordinate)
     if values.dtype.kind != "f" or values.ndim != 1 or values.size < 2:
         return

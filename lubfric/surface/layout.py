@@ -83,7 +83,8 @@ def _explain_points(name: str, table: np.ndarray) -> None:
 
 
 def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
-    """Return whether two columns are the coordinates of points on a uniform grid, each given once, most of them given."""
+    """Return whether two columns are the coordinates of points on a uniform grid, each given once, most of them
+    given."""
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         return False
     try:
@@ -141,15 +142,17 @@ def refuse_profile(
     spacing: tuple[float, float] | None = None,
     named: tuple[tuple[str, str, str], str] | None = None,
 ) -> None:
-    """Raise `InputError` for a profile, with the statistics that make a surface of it. ``units``, ``spacing`` [m]: as the user
-    gives them; ``named``: the units that the headings name, and the headings. They must not contradict each other."""
+    """Raise `InputError` for a profile, with the statistics that make a surface of it. ``units``, ``spacing`` [m]: as
+    the user gives them; ``named``: the units that the headings name, and the headings. They must not contradict each
+    other."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     message = f"file {name} contains a profile of {values.size} points, not a map of heights"
     _refuse_other_unit(message, header, units, named)
     units = units if named is None else named[0]
     recommendation = (
-        "measure a map; or remove the key file and generate a surface with these statistics: write sq and correlation_length into "
-        "[surface], one length for a surface that is alike in all directions, or [along, across the motion]"
+        "measure a map; or remove the key file and generate a surface with these statistics: write sq and "
+        "correlation_length into [surface], one length for a surface that is alike in all directions, or [along, "
+        "across the motion]"
     )
     z = values[np.isfinite(values)]
     if z.size >= PROFILE_LINES:
@@ -181,8 +184,8 @@ def _refuse_other_unit(
     units: tuple[str, str, str] | None,
     named: tuple[tuple[str, str, str], str] | None,
 ) -> None:
-    """Raise `InputError`, with a ``message`` before it, where the unit of the heights that the user gives is not that which the
-    file names."""
+    """Raise `InputError`, with a ``message`` before it, where the unit of the heights that the user gives is not that
+    which the file names."""
     if units is None:
         return
     in_file = None if named is None else (named[0][2], repr(named[1][:60]))
@@ -204,8 +207,8 @@ def _length_in_words(
     *,
     is_named: bool,
 ) -> str:
-    """Return a ``length`` of so many steps of a profile as text, in m where ``units`` or ``spacing`` say it; and that both
-    contradict each other, where they do. ``is_named``: whether the file names the ``units``."""
+    """Return a ``length`` of so many steps of a profile as text, in m where ``units`` or ``spacing`` say it; and that
+    both contradict each other, where they do. ``is_named``: whether the file names the ``units``."""
     given = None if spacing is None else spacing[0]
     if min(table.shape) == 1:
         return f"{length:.3g} steps" if given is None else worded(length * given, "m")
@@ -229,8 +232,8 @@ def _length_in_words(
             f"{worded(step * scale, 'm')}, contradict spacing = {given:.4g} m"
         )
     return (
-        f"{worded(length * given, 'm')} by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, contradict in "
-        "every unit"
+        f"{worded(length * given, 'm')} by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, "
+        "contradict in every unit"
     )
 
 

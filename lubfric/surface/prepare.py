@@ -40,8 +40,8 @@ def fitted_form(
 
     "plane" is of first order, "quadratic" of second, with the mixed term; "cylinder" is a plane curved along x or along
     y, whichever leaves less. An axis of one point has no slope, one of two no curvature. Slopes are those at the middle
-    of the map. If only rounding is left (`LEFT_BY_FORM` of the largest height), the form is the map itself. Raises `InputError`
-    when the points do not determine the form.
+    of the map. If only rounding is left (`LEFT_BY_FORM` of the largest height), the form is the map itself. Raises
+    `InputError` when the points do not determine the form.
     """
     valid = np.ones(heights.shape, bool) if mask is None else mask
     along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
@@ -135,9 +135,9 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     negative below them; 0 elsewhere. Outliers of a measured map are points that are isolated, far from all their
     neighbours.
 
-    The rule: a measured point is an outlier when it lies more than ``OUTLIER_LIMIT`` robust standard deviations both from the
-    median of the complete map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side.
-    The robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard
+    The rule: a measured point is an outlier when it lies more than ``OUTLIER_LIMIT`` robust standard deviations both
+    from the median of the complete map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same
+    side. The robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard
     deviation, and the outliers themselves change it little. Where it is zero (most of the map has one height) Sq is
     taken.
 

@@ -66,9 +66,10 @@ def read_surface(
 
     docs/inputs.md has a table of what is read of each format and what is checked. What a header states is used, and an
     argument that contradicts it is refused. Lines above the table that state nothing are skipped; ``surface.notes``
-    lists them all. One that states a size which the table has not is refused. An empty cell, "nan", "Bad", "No Data", "---" and the like are unmeasured. A comma between digits is
-    the decimal mark where semicolons, tabs or blanks separate. A profile is refused.
-    Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
+    lists them all. One that states a size which the table has not is refused. An empty cell, "nan", "Bad", "No Data",
+    "---" and the like are unmeasured. A comma between digits is the decimal mark where semicolons, tabs or blanks
+    separate. A profile is refused. Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you
+    trust a file.
 
     Parameters
     ----------
@@ -211,7 +212,8 @@ def _masked(
     unread_sizes: tuple[str, ...] = (),
 ) -> Surface:
     """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
-    heights. ``unused_steps``: why steps of the file are not its spacing; ``unread_sizes``: lines that may state a missing spacing."""
+    heights. ``unused_steps``: why steps of the file are not its spacing; ``unread_sizes``: lines that may state a
+    missing spacing."""
     if spacing is None:
         unread = f"{' and '.join(unread_sizes)} may state it, but without a known name and unit"
         why = unread if unread_sizes else "the file does not state it"
@@ -265,7 +267,8 @@ def _unusual_height(sq: float) -> tuple[str, ...]:
     if sq == 0 or low <= sq <= high:
         return ()
     return (
-        f"Sq {worded(sq, 'm')} is unusual (machined surfaces: {worded(low, 'm')} to {worded(high, 'm')}); check the unit of the heights",
+        f"Sq {worded(sq, 'm')} is unusual (machined surfaces: {worded(low, 'm')} to {worded(high, 'm')}); check the "
+        "unit of the heights",
     )
 
 

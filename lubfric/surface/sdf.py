@@ -1,5 +1,5 @@
-"""Height maps of ISO 25178-71 as text (.sdf, also of the older BCR layout): a header, the heights, a trailer, each ended
-by "*"."""
+"""Height maps of ISO 25178-71 as text (.sdf, also of the older BCR layout): a header, the heights, a trailer, each
+ended by "*"."""
 
 from pathlib import Path
 

@@ -30,8 +30,8 @@ PER_SQ = {"ra": math.sqrt(2 / math.pi), "rz": 5.0}
 SAMPLING_LENGTHS = ((2e-8, 8e-5), (1e-7, 2.5e-4), (2e-6, 8e-4), (1e-5, 2.5e-3))
 
 
-# Fewest points on a sampling length that show its highest and lowest point: of white noise they find 3.7 Sq of the 5 Sq that
-# 100 points find. A convention.
+# Fewest points on a sampling length that show its highest and lowest point: of white noise they find 3.7 Sq of the 5 Sq
+# that 100 points find. A convention.
 LEAST_RZ_POINTS = 20
 
 
@@ -44,8 +44,8 @@ def sa(surface: Surface) -> float:
 def rz(surface: Surface) -> tuple[float, float]:
     """Return (Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length,
     along the axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or
-    all of a shorter map. An axis with fewer than `LEAST_RZ_POINTS` points on that length is not evaluated; Rz is NaN where
-    neither is."""
+    all of a shorter map. An axis with fewer than `LEAST_RZ_POINTS` points on that length is not evaluated; Rz is NaN
+    where neither is."""
     wanted = next((length for most, length in SAMPLING_LENGTHS if sa(surface) <= most), 8e-3)
     measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
     mean_heights = []
@@ -116,8 +116,8 @@ def check_slopes(surface: Surface) -> None:
 # What to do about lengths that no surface has.
 WHERE_UNIT_IS_WRONG = "check the unit; where the file names none, give it: unit = 'um', or of points unit = ('mm', 'um') for x and y, and z"
 WHERE_GIVEN_UNIT_IS_WRONG = (
-    "check the unit of the heights (of points: unit = ('mm', 'um') for x and y, and z), and the spacing, which is in m: "
-    "spacing = 1e-6 is 1 µm"
+    "check the unit of the heights (of points: unit = ('mm', 'um') for x and y, and z), and the spacing, which is in "
+    "m: spacing = 1e-6 is 1 µm"
 )
 
 
@@ -130,7 +130,8 @@ def check_spacing(spacing: tuple[float, float], *, advice: str = WHERE_GIVEN_UNI
 
 
 def check_scale(surface: Surface, *, advice: str = WHERE_UNIT_IS_WRONG) -> None:
-    """Raise `InputError` for a map whose lengths cannot be right: a unit was taken for another. ``advice``: what to do."""
+    """Raise `InputError` for a map whose lengths cannot be right: a unit was taken for another. ``advice``: what to
+    do."""
     check_spacing(surface.spacing, advice=advice)
     if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
         return

@@ -1,4 +1,5 @@
-"""Height maps as Surfer writes them to text (.grd, DSAA): five lines of header, then rows of constant y from the lowest."""
+"""Height maps as Surfer writes them to text (.grd, DSAA): five lines of header, then rows of constant y from the
+lowest."""
 
 from pathlib import Path
 

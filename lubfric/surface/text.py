@@ -164,8 +164,9 @@ def _refuse_profile_with_results(path: Path, text: str, decimal: str | None) -> 
 
 
 def _refuse_smd(path: Path, text: str) -> None:
-    """Raise `InputError` with the statistics of a profile in the SMD format of ISO 5436-2 (.prf, .smd): records that end
-    with EOR; in the first one axes "CX M points MM increment D" and "CZ ..."; the heights in whole increments come last."""
+    """Raise `InputError` with the statistics of a profile in the SMD format of ISO 5436-2 (.prf, .smd): records that
+    end with EOR; in the first one axes "CX M points MM increment D" and "CZ ..."; the heights in whole increments come
+    last."""
     lines = [line.split() for line in text.splitlines()]
     axes = {words[0]: words for words in lines if len(words) >= 5 and words[0] in ("CX", "CZ")}
     ends = [place for place, words in enumerate(lines) if words == ["EOR"]]
@@ -693,7 +694,8 @@ def _may_be_thousands(lines: Lines) -> bool:
 
 
 def _fault(lines: Lines, separator: str | None, in_file: Mapping[int, str]) -> str:
-    """Return the first line that is not numbers or not as long as the first, as text; with the words that the file has."""
+    """Return the first line that is not numbers or not as long as the first, as text; with the words that the file
+    has."""
     width = len(lines[0][1].split(separator))
     for number, text in lines:
         fields = [f.strip() for f in text.split(separator)]

@@ -35,7 +35,8 @@ def read_zygo(
     path: Path, text: str, units: tuple[str, str, str] | None
 ) -> tuple[FloatArray, tuple[float, float] | None, tuple[str, ...]]:
     """Return the heights[ix, iy] [m] of a file, NaN where unmeasured; its spacing [m], None where its camera was not
-    calibrated; and notes. ``units``: as the caller gives them, because a list of points does not state that of its heights.
+    calibrated; and notes. ``units``: as the caller gives them, because a list of points does not state that of its
+    heights.
 
     Raises `InputError` for a file that is cut off or of another layout, and for a unit that is missing or not needed.
     """

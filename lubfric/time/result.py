@@ -62,8 +62,9 @@ MASS = 1e-3  # largest residual of a step's mass; a choice: less refuses runs, m
 
 @dataclass(frozen=True, kw_only=True)
 class TimeAverage:
-    """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f) and f is not that of
-    rolling resistance (`lubfric.models.shared.is_by_sliding`), the share ``in_motion`` of that time, and relative standard deviations.
+    """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f) and f is not that
+    of rolling resistance (`lubfric.models.shared.is_by_sliding`), the share ``in_motion`` of that time, and relative
+    standard deviations.
 
     - ``sampling``: of ``coefficient``, because one finite line of rough surface represents all of it. The line is the
       same at all times, so a longer run does not make this smaller.
@@ -96,11 +97,11 @@ class TransientResult(Renamed, Shown):
     Attributes
     ----------
     columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface against
-        its sliding over the lower one (in pure rolling: against its motion), over F_T; friction_force and its parts [N], positive
-        along -x, against a motion along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of
-        the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last
-        step, per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-],
-        the relative standard error of f because the line of rough surface is finite
+        its sliding over the lower one (in pure rolling: against its motion), over F_T; friction_force and its parts
+        [N], positive along -x, against a motion along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from
+        and wet_to [m], the ends of the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of
+        the lubricant over the last step, per unit width; time_error [-], the local error of the last step over the
+        tolerance; sampling_error [-], the relative standard error of f because the line of rough surface is finite
         (`lubfric.models.load_sharing.moment_error`; the line is the same at all times, so this error of f has the same
         sign throughout); inlet_film_factor [-],
         flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
@@ -163,15 +164,15 @@ class TransientResult(Renamed, Shown):
             return f"Not converged: {self.report.outcome}."
         if not self.is_complete:
             return (
-                f"Refused: all {count} outputs to t = {end} are solved, but at {self.refused_outputs} of them an assumption "
-                "is violated so strongly that f has no meaning (see the warnings)."
+                f"Refused: all {count} outputs to t = {end} are solved, but at {self.refused_outputs} of them an "
+                "assumption is violated so strongly that f has no meaning (see the warnings)."
             )
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
 
     @property
     def start_in_words(self) -> str:
-        """Whether the run is periodic, or contains its start, as a sentence, where its end has the speeds and the load of its
-        first output, and other ones in between; else ""."""
+        """Whether the run is periodic, or contains its start, as a sentence, where its end has the speeds and the load
+        of its first output, and other ones in between; else ""."""
         if self.time.size < 2:
             return ""
         conditions = [self.columns[name] for name in ("entrainment_speed", "sliding_speed", "load")]
@@ -186,20 +187,21 @@ class TransientResult(Renamed, Shown):
             if all(np.ptp(values) <= most for values, most in zip(conditions, same)):
                 return ""
             return (
-                "The run is periodic: its end has the speeds and the load of its first output, an asperity load ratio that "
-                f"differs by {by_ratio:.1g}, and a central separation that differs by {100 * by_film:.1g} %."
+                "The run is periodic: its end has the speeds and the load of its first output, an asperity load ratio "
+                f"that differs by {by_ratio:.1g}, and a central separation that differs by {100 * by_film:.1g} %."
             )
         return (
-            "The run is not periodic: its end has the speeds and the load of its first output, but an asperity load ratio of "
-            f"{ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of {worded(float(film[-1]), 'm')} instead of "
-            f"{worded(float(film[0]), 'm')}. So the mean contains the start of the run; for the periodic motion, solve two "
-            "periods (transient.duration; repeat = true in a table), and set transient.first_output to the end of the first."
+            "The run is not periodic: its end has the speeds and the load of its first output, but an asperity load "
+            f"ratio of {ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of "
+            f"{worded(float(film[-1]), 'm')} instead of {worded(float(film[0]), 'm')}. So the mean contains the start "
+            "of the run; for the periodic motion, solve two periods (transient.duration; repeat = true in a table), "
+            "and set transient.first_output to the end of the first."
         )
 
     def average(self) -> TimeAverage:
-        """Return the average of f over the time that `counts_in_average`, by trapezes between the outputs (which have to be dense
-        enough to show f; between one that counts and one that does not f is that of the former); its error; and its scatter for
-        fixed and for moving roughness."""
+        """Return the average of f over the time that `counts_in_average`, by trapezes between the outputs (which have
+        to be dense enough to show f; between one that counts and one that does not f is that of the former); its error;
+        and its scatter for fixed and for moving roughness."""
         half = 0.5 * np.diff(self.time)
         moving = counts_in_average(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
@@ -321,16 +323,16 @@ class TransientResult(Renamed, Shown):
 
 
 def _mean_known(values: np.ndarray, weight: np.ndarray) -> float:
-    """Return the mean of ``values`` (n,) with a ``weight`` each, of which those that are not known (NaN) count 0; NaN if
-    none is known."""
+    """Return the mean of ``values`` (n,) with a ``weight`` each, of which those that are not known (NaN) count 0; NaN
+    if none is known."""
     return float(np.average(np.nan_to_num(values), weights=weight)) if np.isfinite(values).any() else math.nan
 
 
 def errors_in_time(
     columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return how far each part of the uncertainty budget moves f at every time, below and above it, (nt,) each; NaN where it is
-    not known. ``inputs_below``, ``inputs_above`` (nt,) [-]: how far the range of f_b moves f."""
+    """Return how far each part of the uncertainty budget moves f at every time, below and above it, (nt,) each; NaN
+    where it is not known. ``inputs_below``, ``inputs_above`` (nt,) [-]: how far the range of f_b moves f."""
     f = columns["coefficient"]
     size = np.abs(f)
     sampling = student(MANY_BLOCKS) * columns["sampling_error"] * size
@@ -346,8 +348,8 @@ def errors_in_time(
 
 
 def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray) -> np.ndarray:
-    """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known is
-    not in it; NaN where sampling is not known, and at rest."""
+    """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known
+    is not in it; NaN where sampling is not known, and at rest."""
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
@@ -480,16 +482,16 @@ def _residual(columns: dict[str, np.ndarray], name: str, tolerance: float, what:
 
 
 def in_motion(c: dict[str, np.ndarray], fastest: float = 0.0) -> np.ndarray:
-    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves: faster than `REST` times
-    the largest speed of the run, so that a reversal is a standstill whatever the rounding errors of a period. ``fastest``: a
-    speed [m/s] of the run at another time."""
+    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves: faster than `REST`
+    times the largest speed of the run, so that a reversal is a standstill whatever the rounding errors of a period.
+    ``fastest``: a speed [m/s] of the run at another time."""
     speeds = np.abs([c["entrainment_speed"], c["sliding_speed"]])
     return (speeds > REST * np.max(speeds, initial=fastest)).any(axis=0)
 
 
 def counts_in_average(c: dict[str, np.ndarray]) -> np.ndarray:
-    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` that count in the average of f: the surfaces move, and f
-    comes from sliding (`is_by_sliding`), unless it does so at no time."""
+    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` that count in the average of f: the surfaces
+    move, and f comes from sliding (`is_by_sliding`), unless it does so at no time."""
     moving = in_motion(c)
     counted = moving & is_by_sliding(c)
     return counted if counted.any() else moving
@@ -502,7 +504,8 @@ def rolls(c: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def sense_of_friction_over_time(c: dict[str, np.ndarray]) -> FloatArray:
-    """Return the sign of the friction force on the upper surface, which is positive along -x, at a positive coefficient, by the ``c`` of a `lubfric.TransientResult`."""
+    """Return the sign of the friction force on the upper surface, which is positive along -x, at a positive
+    coefficient, by the ``c`` of a `lubfric.TransientResult`."""
     speed = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     return np.where(speed < 0, -1.0, 1.0)
 
@@ -528,8 +531,8 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
 
 
 def add_angle_axis(axes: "Axes", c: dict[str, np.ndarray]) -> None:
-    """Add an axis of the angle of rotation below that of the time of ``axes``, by the ``c`` of a `lubfric.TransientResult`; none
-    where the angle is not known."""
+    """Add an axis of the angle of rotation below that of the time of ``axes``, by the ``c`` of a
+    `lubfric.TransientResult`; none where the angle is not known."""
     angle = c.get("angle_of_rotation", np.full(1, np.nan))
     if not np.isfinite(angle).any():
         return
@@ -542,7 +545,8 @@ def add_angle_axis(axes: "Axes", c: dict[str, np.ndarray]) -> None:
 
 
 def degree_ticks(first: float, last: float) -> tuple[float, float, float]:
-    """Return the first tick [°] of an axis of angles from ``first`` to ``last``, a number above its last one, and their step."""
+    """Return the first tick [°] of an axis of angles from ``first`` to ``last``, a number above its last one, and their
+    step."""
     least = (last - first) / MOST_DEGREE_TICKS
     turns = DEGREE_STEPS[-1] * math.ceil(least / DEGREE_STEPS[-1])
     step = next((step for step in DEGREE_STEPS if step >= least), turns)

@@ -2,9 +2,9 @@
 
 Every number of a module of `ROOMS` (or those whose name begins with NAME) is halved and doubled, alone, and the points
 of `points` are solved again. A row of ``constants.csv`` says by how much f, the width of its 95 % interval and the
-counted work change, at most. A constant that moves f by no more than its stated error is a matter of cost or of caution;
-one that moves it by more needs a source of its own, beside it in the code. Rows that are there stay; remove them to
-measure them again.
+counted work change, at most. A constant that moves f by no more than its stated error is a matter of cost or of
+caution; one that moves it by more needs a source of its own, beside it in the code. Rows that are there stay; remove
+them to measure them again.
 """
 
 import ast
@@ -160,7 +160,8 @@ def _in_time(scene: lubfric.Scene) -> Callable[[], Numbers]:
 
 
 def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tuple[float, ...]]]:
-    """Yield (module, name, value) of every number, or tuple of numbers, in capital letters of the modules of `ROOMS`."""
+    """Yield (module, name, value) of every number, or tuple of numbers, in capital letters of the modules of
+    `ROOMS`."""
     for room in ROOMS:
         package = importlib.import_module(room)
         for info in pkgutil.iter_modules(package.__path__, f"{room}."):

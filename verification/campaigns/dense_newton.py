@@ -1,9 +1,9 @@
 """A smooth line contact by a plain Newton method on the full matrix: the yardstick of the chart of films.
 
-Nodes lie at even distances, without nested grids or graded meshes. The flow between two nodes is U rho h by second-order
-upwinding, less rho h³/(12 eta) dp/dx with the logarithmic mean of rho/eta. The film ruptures where the pressure would be
-negative (Swift and Stieber). Elasticity is exact for pressures that are constant around each node. It starts from the dry
-contact, and does not converge in every case.
+Nodes lie at even distances, without nested grids or graded meshes. The flow between two nodes is U rho h by
+second-order upwinding, less rho h³/(12 eta) dp/dx with the logarithmic mean of rho/eta. The film ruptures where the
+pressure would be negative (Swift and Stieber). Elasticity is exact for pressures that are constant around each node. It
+starts from the dry contact, and does not converge in every case.
 """
 
 import math

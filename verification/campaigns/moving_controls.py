@@ -1,8 +1,8 @@
 """Control variates of rolling contacts: the part of the variance of f between strips that each would leave.
 
 ``python -m verification.campaigns.moving_controls`` compares f of whole passes of strips, those of the references of
-`moving_coverage`, with f of load sharing on the same maps, with what an attenuated map carries below the boundary film when
-it is pressed dry at a fixed gap, and with the attenuated summits, the control in use.
+`moving_coverage`, with f of load sharing on the same maps, with what an attenuated map carries below the boundary film
+when it is pressed dry at a fixed gap, and with the attenuated summits, the control in use.
 """
 
 from . import extending
@@ -40,7 +40,8 @@ def controls(contact: RollingContact, seed: int) -> PlainRow:
 
 
 def pressed(contact: RollingContact, case: Case) -> float:
-    """Return the mean pressure [Pa] on gaps below the boundary film of the attenuated map, pressed dry at a fixed gap."""
+    """Return the mean pressure [Pa] on gaps below the boundary film of the attenuated map, pressed dry at a fixed
+    gap."""
     bodies = contact.scene.bodies
     surface = attenuated(case.surface, bodies.half_width)
     film = contact.scene.line_contact(contact.speed).moes_film
@@ -52,8 +53,8 @@ def pressed(contact: RollingContact, case: Case) -> float:
 
 
 def left(folder: Path = FOLDER) -> Iterator[PlainRow]:
-    """Yield of each contact the part of the variance of f between strips that a control leaves, of which the slope is that
-    of a fit over the same strips: the residual variance has a degree of freedom less."""
+    """Yield of each contact the part of the variance of f between strips that a control leaves, of which the slope is
+    that of a fit over the same strips: the residual variance has a degree of freedom less."""
     rows = [row for row in table_file.rows(folder / REFERENCES) if row["kind"] == "strip" and not row["failure"]]
     for contact in contacts():
         strips = [row for row in rows if row["contact"] == contact.name]
@@ -72,7 +73,8 @@ def left(folder: Path = FOLDER) -> Iterator[PlainRow]:
 
 
 def variance_left(f: np.ndarray, control: np.ndarray) -> float:
-    """Return the part of the variance of ``f`` that a line in the ``control`` leaves, without bias; 1 where the control is constant."""
+    """Return the part of the variance of ``f`` that a line in the ``control`` leaves, without bias; 1 where the control
+    is constant."""
     if control.std() == 0:
         return 1.0
     correlation = float(np.corrcoef(f, control)[0, 1])

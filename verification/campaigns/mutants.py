@@ -1,13 +1,13 @@
-"""``python -m verification mutants [--places PLACE ...] [--seconds S] [--file FILE]``: errors in the text of `lubfric`, one at a time,
-which tests or studies must detect.
+"""``python -m verification mutants [--places PLACE ...] [--seconds S] [--file FILE]``: errors in the text of `lubfric`,
+one at a time, which tests or studies must detect.
 
 The table `mutants.txt` has one mutant on a line: ``place | text | replacement | detected by``. The place is a file or
 folder below `lubfric` that contains the text once. The last field names tests, as files below `tests` or
 ``file::test``, or studies, at their quick level, separated by blanks.
 
 The table `mutants_tried.csv` keeps what came of each trial: of each mutant, with a fingerprint of the function that it
-changes and of what has to detect it (`Mutant.fingerprint`), and of each test or study on the library as it is. A trial is
-repeated only when one of these has changed.
+changes and of what has to detect it (`Mutant.fingerprint`), and of each test or study on the library as it is. A trial
+is repeated only when one of these has changed.
 """
 
 import ast
@@ -151,8 +151,8 @@ def source_around(text: str, line: int) -> str:
 
 
 def structure(part: ast.AST) -> str:
-    """Return the nodes of a ``part`` of a program as text that is the same in all versions of Python, wherever its lines
-    break and whatever its comments say."""
+    """Return the nodes of a ``part`` of a program as text that is the same in all versions of Python, wherever its
+    lines break and whatever its comments say."""
 
     def nested(value: object) -> object:
         if isinstance(value, ast.AST):
@@ -254,7 +254,8 @@ def extend(
 
 
 def tried(trial: Mutant | Control, deadline: float) -> tuple[int, float] | None:
-    """Return the exit code of a trial, and how long it took [s]; None where the ``deadline`` of the clock came first."""
+    """Return the exit code of a trial, and how long it took [s]; None where the ``deadline`` of the clock came
+    first."""
     begun = time.monotonic()
     left = deadline - begun
     if left <= 0:

@@ -1,9 +1,9 @@
 """``python -m verification.campaigns.newton_constants [NAME ...]``: what the constants of Newton's method decide.
 
 Every number of `MODULES` (or those whose name begins with NAME) is halved and doubled, alone, and the films of `FILMS`
-are solved again. A row says by how much the counted work changes, in all and at most, by how much f changes at most, and
-which films have no solution then. The work is counted from cells, factorisations and iterations, so that a loaded machine
-shows the same.
+are solved again. A row says by how much the counted work changes, in all and at most, by how much f changes at most,
+and which films have no solution then. The work is counted from cells, factorisations and iterations, so that a loaded
+machine shows the same.
 """
 
 import importlib

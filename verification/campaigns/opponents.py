@@ -75,7 +75,8 @@ def aspher_solver(
     precision: str = "float_then_double",
     engine: str = "fft",
 ) -> Solver | None:
-    """Return nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
+    """Return nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as
+    preconditioner.
 
     Set OMP_NUM_THREADS before the process starts: OpenMP reads it once. ``heights`` must be square with an even side.
     """

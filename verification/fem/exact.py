@@ -1,7 +1,7 @@
 """Closed forms and one-dimensional quadratures for rigid films, which the finite elements are held against.
 
-They are written from the equations, with nothing from `lubfric` nor from `verification.fem.solvers`. U is the entrainment
-speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
+They are written from the equations, with nothing from `lubfric` nor from `verification.fem.solvers`. U is the
+entrainment speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
 """
 
 from __future__ import annotations

@@ -82,8 +82,8 @@ def halved(low: float, high: float, below: Callable[[float], bool], times: int =
 def pressed_cylinder(
     line: exact_contact.Line, across: float, hardness: float | None = None
 ) -> tuple[np.ndarray, ContactResult]:
-    """Return x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
-    one."""
+    """Return x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells
+    in one."""
     dx = line.half_width / across
     n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
@@ -102,7 +102,8 @@ def case_of_scene(scene: Scene, load: float, speed: float) -> PlainRow:
 
 
 def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> PlainRow:
-    """Return arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
+    """Return arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant
+    viscosity."""
     law, effective = ("constant", 5.0) if L == 0 else (law, L)
     u1 = (effective / (ALPHA * E_PRIME)) ** 4
     return {

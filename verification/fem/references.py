@@ -81,7 +81,8 @@ def bisinusoid_area(share: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class SelfAffine:
-    """What Xu et al. have under a mean pressure of ``load`` times E* [1] on a self-affine surface with waves from 1 to 100.
+    """What Xu et al. have under a mean pressure of ``load`` times E* [1] on a self-affine surface with waves from 1 to
+    100.
 
     gap : mean gap over Sq
     area, scatter : contact area fraction of their figure 2, and its standard deviation over their surfaces
@@ -116,8 +117,8 @@ SELF_AFFINE_CELLS = 5.12
 
 
 def self_affine_full_contact(patch: int) -> tuple[float, float]:
-    """Return the rms slope, and the elastic energy [J/m² for E* = 1 Pa] in full contact, of the surface of Xu et al. on a
-    periodic patch of ``patch`` longest waves, as sums over its waves: ∑ q |h|²/4, with Sq as they state it."""
+    """Return the rms slope, and the elastic energy [J/m² for E* = 1 Pa] in full contact, of the surface of Xu et al. on
+    a periodic patch of ``patch`` longest waves, as sums over its waves: ∑ q |h|²/4, with Sq as they state it."""
     waves = np.arange(-100 * patch, 100 * patch + 1)
     number = np.hypot(waves[:, None], waves)
     wave = SELF_AFFINE_WAVE / patch * number[(number >= patch) & (number <= 100 * patch)]
@@ -133,8 +134,8 @@ EDGE = (math.pi - 1 + math.log(2)) / 24
 
 
 def summit_density(length: float) -> float:
-    """Return maxima per area [1/m²] of a Gaussian surface with the autocorrelation exp(-(r/length)²): m4/(6 pi sqrt(3) m2),
-    with m2 = 2 Sq²/length² and m4 = 12 Sq²/length⁴ of a profile."""
+    """Return maxima per area [1/m²] of a Gaussian surface with the autocorrelation exp(-(r/length)²): m4/(6 pi sqrt(3)
+    m2), with m2 = 2 Sq²/length² and m4 = 12 Sq²/length⁴ of a profile."""
     return 1 / (math.pi * math.sqrt(3) * length**2)
 
 
@@ -148,8 +149,8 @@ ELASTIC_PIEZOVISCOUS = 1.311  # film of that limit over M^(-1/8) L^(3/4); likewi
 
 
 def moes(m: float, l: float) -> float:
-    """Return the film h of Moes where dp/dx = 0 [-], in the unit above, by his numbers ``m`` (M, of the load) and ``l`` (L, of
-    the viscosity under pressure) [-]; incompressible. Joins the four limits as Nijenbanning et al. (1994) do."""
+    """Return the film h of Moes where dp/dx = 0 [-], in the unit above, by his numbers ``m`` (M, of the load) and ``l``
+    (L, of the viscosity under pressure) [-]; incompressible. Joins the four limits as Nijenbanning et al. (1994) do."""
     ri = 3 / m
     ei = ISOVISCOUS_ELASTIC * m**-0.2
     rp = RIGID_PIEZOVISCOUS * l ** (2 / 3)
@@ -226,8 +227,8 @@ BERTOCCHI = {"narrow": _NARROW, "wide": _WIDE}
 
 
 def refilled(pad: Pocket) -> tuple[float, float, float]:
-    """Return load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the film
-    ruptures at the edge of the pocket, at constant viscosity and density, with the pressure of rupture outside."""
+    """Return load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the
+    film ruptures at the edge of the pocket, at constant viscosity and density, with the pressure of rupture outside."""
     scale = 12 * pad.speed * pad.viscosity * pad.length / (pad.start - pad.end)
     first = pad.wedge(pad.begins)
     last = pad.wedge(pad.ends)
@@ -275,8 +276,9 @@ def amplitude_fit(m: float, l: float, wavelength: float) -> float:
 def hooke(
     k: float, speed: float, film: float, drag: float, stiffness: float, e_prime: float
 ) -> tuple[complex, complex]:
-    """Return what an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
-    the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus [Pa]."""
+    """Return what an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the
+    wave from the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus
+    [Pa]."""
     q = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2)
     c = film * e_prime * k / (4 * stiffness)
     kept = (1 - 1j * c * q) / (1 - 1j * (1 + c) * q)
@@ -308,8 +310,8 @@ FLASH_UNIFORM = 1.128  # the same under a uniform band; Jaeger 1942
 
 
 def eyring_force(stress: float, viscosity: float, alpha: float, rate: float, width: float, peak: float) -> float:
-    """Return traction [N/m] of a film of even thickness under Hertz pressure (``peak`` [Pa], half-``width`` [m]), Barus and
-    Eyring, for large arguments of asinh: 2 b tau_E (ln(2 eta rate/tau_E) + alpha p_mean)."""
+    """Return traction [N/m] of a film of even thickness under Hertz pressure (``peak`` [Pa], half-``width`` [m]), Barus
+    and Eyring, for large arguments of asinh: 2 b tau_E (ln(2 eta rate/tau_E) + alpha p_mean)."""
     return 2 * width * stress * (math.log(2 * viscosity * rate / stress) + alpha * peak * math.pi / 4)
 
 
@@ -367,8 +369,8 @@ def roelands(viscosity: float, alpha: float, pressure: float) -> float:
 
 
 def density(pressure: float) -> float:
-    """Return density under pressure [Pa] over that without; printed as 1 + .6 p/(1 + 1.7 p) with p in GPa, and as (5.9e8 +
-    1.34 p)/(5.9e8 + p): this is the second."""
+    """Return density under pressure [Pa] over that without; printed as 1 + .6 p/(1 + 1.7 p) with p in GPa, and as
+    (5.9e8 + 1.34 p)/(5.9e8 + p): this is the second."""
     return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
@@ -397,8 +399,8 @@ BEARING_NU = 60e-6  # m²/s, of FVA 3 at 50 °C, by ASTM D341 from 96 and 10.6 m
 
 
 def skf_boundary_weight(rpm: float, nu: float, mean_diameter: float) -> float:
-    """Return SKF's weight of boundary friction in a bearing, 1/exp(2.6e-8 (n ν)^1.4 d_m) with n in rpm, ν in mm²/s, d_m in mm.
-    ``nu`` [m²/s], ``mean_diameter`` [m]."""
+    """Return SKF's weight of boundary friction in a bearing, 1/exp(2.6e-8 (n ν)^1.4 d_m) with n in rpm, ν in mm²/s, d_m
+    in mm. ``nu`` [m²/s], ``mean_diameter`` [m]."""
     return math.exp(-2.6e-8 * (rpm * nu * 1e6) ** 1.4 * mean_diameter * 1e3)
 
 
@@ -437,13 +439,14 @@ class GearC14:
 
 
 C14 = GearC14()
-# of mineral oils: 1 in Schlenk's fit (Niemann, Winter), 0.846 in Fernandes' gear oils; the middle, and half the difference
+# of mineral oils: 1 in Schlenk's fit (Niemann, Winter), 0.846 in Fernandes' gear oils; the middle, and half the
+# difference
 LUBRICANT_FACTOR = (0.923, 0.077)
 
 
 def schlenk(torque: float, rpm: float, viscosity: float) -> float:
-    """Return Schlenk's mean friction of the gear `C14`: 0.048 (w/(v_Σ ρ))^0.2 η^-0.05 Ra^0.25 X_L, in N/mm, m/s, mm, mPa s, µm.
-    ``torque`` on the pinion [N m], ``viscosity`` [Pa s]."""
+    """Return Schlenk's mean friction of the gear `C14`: 0.048 (w/(v_Σ ρ))^0.2 η^-0.05 Ra^0.25 X_L, in N/mm, m/s, mm,
+    mPa s, µm. ``torque`` on the pinion [N m], ``viscosity`` [Pa s]."""
     load = torque / C14.base[0] / C14.width
     film = (load * 1e-3 / (C14.sum_speed(rpm) * C14.radius * 1e3)) ** 0.2 * (viscosity * 1e3) ** -0.05
     return float(0.048 * film * (C14.ra * 1e6) ** 0.25 * LUBRICANT_FACTOR[0])

@@ -62,8 +62,8 @@ def at_rest(smooth: Smooth, k: float, height: float, phase: float = 0.0) -> Dete
 
 
 def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and pressure
-    [Pa] then (time, x). In a step the lubricant moves by a cell, or nearly."""
+    """Return times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and
+    pressure [Pa] then (time, x). In a step the lubricant moves by a cell, or nearly."""
     x = smooth.film.x
     pace = smooth.speed * smooth.problem.speed
     period = 2 * math.pi / (k * pace)
@@ -80,8 +80,8 @@ def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.nda
 
 
 def response(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return change of gap [m/m] and pressure [Pa/m] per height of exp(i k x) at one moment, complex (nx,). ``height`` [m] is
-    small."""
+    """Return change of gap [m/m] and pressure [Pa/m] per height of exp(i k x) at one moment, complex (nx,). ``height``
+    [m] is small."""
     if not smooth.speed:
         two = [at_rest(smooth, k, height, phase) for phase in (0.0, math.pi / 2)]
         parts = [((film.gap - smooth.film.gap)[:, 0], (film.pressure - smooth.film.pressure)[:, 0]) for film in two]

@@ -1,6 +1,7 @@
 """Compare curves at chosen speeds with curves at 25 even speeds: points, processor time, largest error between speeds.
 
-    python -m verification.campaigns.benchmarks.chosen_speeds [--strips] [--seed SEED] [--scenes COUNT] [--points POINTS]
+    python -m verification.campaigns.benchmarks.chosen_speeds [--strips] [--seed SEED] [--scenes COUNT] [--points
+    POINTS]
         [--docs docs]
 
 Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --strips, on

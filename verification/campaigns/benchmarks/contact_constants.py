@@ -4,8 +4,9 @@
 
 Periodic surfaces with exponential and Gaussian autocorrelation and self-affine ones (H = 0.8) at 50, 200 and 1000 MPa,
 one with a hardness of 3 GPa, one with a free axis, two that start from the pressure of a third and of two thirds of the
-load, and three that start from the contact at .85, .95 and .99 of the load, to tolerance 1e-4. Told are the convolutions
-against those of the values as they are (geometric mean and worst case), and how many solves did not converge.
+load, and three that start from the contact at .85, .95 and .99 of the load, to tolerance 1e-4. Told are the
+convolutions against those of the values as they are (geometric mean and worst case), and how many solves did not
+converge.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Dry contact against aspher and tamaas: processor time at one measured pressure error.
 
-    python -m verification.campaigns.benchmarks.contact_vs_aspher [--surfaces exponential gaussian self-affine] [--cells 816 2048]
+    python -m verification.campaigns.benchmarks.contact_vs_aspher [--surfaces exponential gaussian self-affine] [--cells
+    816 2048]
         [--loads 50 200 1000] [--opponents aspher] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE]
         [--json FILE] [--rows FILE ...] [--docs docs]
 
@@ -9,10 +10,10 @@ um). Error: relative L2 distance of the pressure from a solution of lubfric at t
 confirms. For each solver the loosest tolerance of a ladder (two a decade) whose measured error is at most the target;
 repeats interleaved on one thread each, medians of processor seconds with quartiles; a solve of more than a minute is
 timed once. ``--kept``: a file that keeps those tolerances for a later run; ``--rows``: nothing is run, the table is
-made of what earlier runs wrote by ``--json``. ``--opponents tamaas`` solves to the target by tamaas too, which takes tens
-of minutes on the larger grids; with ``--bound`` it is stopped after so many times the time of lubfric instead (0: left
-out) and its error reported: above the target, it is slower by more than that. Needs ``pip install "lubfric[benchmark]"``
-for the opponents; times lubfric alone without.
+made of what earlier runs wrote by ``--json``. ``--opponents tamaas`` solves to the target by tamaas too, which takes
+tens of minutes on the larger grids; with ``--bound`` it is stopped after so many times the time of lubfric instead (0:
+left out) and its error reported: above the target, it is slower by more than that. Needs ``pip install
+"lubfric[benchmark]"`` for the opponents; times lubfric alone without.
 """
 
 from __future__ import annotations
@@ -49,8 +50,8 @@ MeasuredRow = tuple[str, float, float, float, float, float]
 def loosest(
     solve: Solver, load: float, reference: np.ndarray, target: float, first: float
 ) -> tuple[float, float, float]:
-    """Return (tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
-    it."""
+    """Return (tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best
+    of it."""
     closest = (np.nan, np.inf, np.nan)
     for tolerance in LADDER:
         if tolerance > first * 1.01:
@@ -74,8 +75,8 @@ def measured(solve: Solver, load: float, tolerance: float, reference: np.ndarray
 def compare(
     solvers: dict[str, Solver], load: float, reference: np.ndarray, target: float, repeats: int, first: dict[str, float]
 ) -> list[MeasuredRow]:
-    """Return rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
-    that the search begins with."""
+    """Return rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the
+    tolerances that the search begins with."""
     results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
     seconds = {name: [f[2]] for name, f in results.items()}
     for _ in range(repeats):

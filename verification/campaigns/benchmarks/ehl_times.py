@@ -1,4 +1,5 @@
-"""Times and errors of `solve_ehl` on one thread: python -m verification.campaigns.benchmarks.ehl_times [--repeats 11] [--docs docs]
+"""Times and errors of `solve_ehl` on one thread: python -m verification.campaigns.benchmarks.ehl_times [--repeats 11]
+[--docs docs]
 
 The shortest processor times, cold and warm, at three tolerances, and the larger error of smallest and flow film against
 a solution at tolerance 3e-5. A warm solve starts from a result at 3 % less load, as load sharing does.

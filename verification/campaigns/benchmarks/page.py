@@ -26,8 +26,8 @@ def write(
 
 
 def command(name: str, parser: ArgumentParser, options: Namespace) -> str:
-    """Return the command as it was typed, without files and folders but those of the documents. An argument without a dash
-    is named."""
+    """Return the command as it was typed, without files and folders but those of the documents. An argument without a
+    dash is named."""
     words = ["python", "-m", f"verification.campaigns.benchmarks.{BENCHMARKS[name]}"]
     named = [action.dest for action in parser._get_positional_actions()]
     words += [key.upper() for key in named if getattr(options, key) != parser.get_default(key)]

@@ -2,8 +2,8 @@
 
     python -m verification.campaigns.benchmarks.rolling_costs [--jobs NAME ...] [--docs docs]
 
-Processor seconds of one thread hang on the machine and on its other jobs, counted work on neither. Jobs with ranges of inputs
-solve their ends too.
+Processor seconds of one thread hang on the machine and on its other jobs, counted work on neither. Jobs with ranges of
+inputs solve their ends too.
 """
 
 import os
@@ -45,8 +45,8 @@ PASSING_CELL = 2e-6
 # Speed of the rough body over U in the pass [-]: a slide-roll ratio of 0.1.
 PASSING_RATIO = 1.05
 
-# The pair C of the FZG rig: teeth, distance between the centres [m], pressure angle in operation [rad], radii of the tips [m],
-# speed in the pitch circle [m/s], force along the path of contact [N], points on the path.
+# The pair C of the FZG rig: teeth, distance between the centres [m], pressure angle in operation [rad], radii of the
+# tips [m], speed in the pitch circle [m/s], force along the path of contact [N], points on the path.
 TEETH = (16, 24)
 CENTRES = 91.5e-3
 ANGLE = math.radians(22.44)
@@ -61,7 +61,8 @@ ANTI_WEAR_STEEL = {"material": "100Cr6", "hardness": "100Cr6", "boundary_frictio
 
 @dataclass(frozen=True, kw_only=True)
 class CostJob:
-    """A job: ``run`` returns its friction coefficients; ``before``: processor seconds of version 0.2.0 (NaN: not known)."""
+    """A job: ``run`` returns its friction coefficients; ``before``: processor seconds of version 0.2.0 (NaN: not
+    known)."""
 
     run: Callable[[], list[float]]
     before: float = math.nan
@@ -172,7 +173,8 @@ def gear_flank() -> list[float]:
     return coefficients
 
 
-# The jobs by name: the bearing of the start page; the roller has 1 GPa, and rests at six speeds. The seconds of version 0.2.0 were measured with that version on the same kind of machine.
+# The jobs by name: the bearing of the start page; the roller has 1 GPa, and rests at six speeds. The seconds of version
+# 0.2.0 were measured with that version on the same kind of machine.
 JOBS = {
     "bearing, 3 m/s": CostJob(run=bearing, before=630),
     "needle roller, 0.05 m/s": CostJob(run=lambda: needle(0.05), before=365),

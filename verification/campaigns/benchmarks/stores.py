@@ -1,6 +1,7 @@
 """The store of points, a file each, against SQLite and zarr: time, size, files, four writers at once, kills.
 
-    python -m verification.campaigns.benchmarks.stores [--points 10000] [--only NAME ...] [--folder FOLDER] [--docs docs]
+    python -m verification.campaigns.benchmarks.stores [--points 10000] [--only NAME ...] [--folder FOLDER] [--docs
+    docs]
 
 Each store gets the same encoded point under other keys, by one process and then by WORKERS processes, and gives all of
 them back. Then writers are killed, and what they had reported as written is looked for. Stores that are not installed

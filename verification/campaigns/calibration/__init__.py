@@ -1,9 +1,10 @@
 """``python -m verification calibration``: the error of the quick model on kinds of contacts that the fit
 excluded.
 
-Random contacts are solved by load sharing, and by the deterministic model on long and on short cells. ``python -m verification.campaigns.calibration
-MOTION COUNT`` extends the table of solved cases; ``... numbers`` solves those that are missing on long cells, ``... fit`` writes the
-error model of lubfric anew, and ``... pairs COUNT`` solves pairs of similar contacts.
+Random contacts are solved by load sharing, and by the deterministic model on long and on short cells. ``python -m
+verification.campaigns.calibration MOTION COUNT`` extends the table of solved cases; ``... numbers`` solves those that
+are missing on long cells, ``... fit`` writes the error model of lubfric anew, and ``... pairs COUNT`` solves pairs of
+similar contacts.
 """
 
 from ... import frame

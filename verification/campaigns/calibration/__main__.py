@@ -1,6 +1,7 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
-``... numbers [--workers N] [--seconds S] [--out FOLDER]``: solve the cases that are missing on long cells by today's model.
-``... fit``: write calibration.toml of lubfric anew. ``... pairs COUNT``: extend the table of pairs of similar contacts."""
+``... numbers [--workers N] [--seconds S] [--out FOLDER]``: solve the cases that are missing on long cells by today's
+model. ``... fit``: write calibration.toml of lubfric anew. ``... pairs COUNT``: extend the table of pairs of similar
+contacts."""
 
 import math
 import time

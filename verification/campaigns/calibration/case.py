@@ -121,8 +121,8 @@ def drawn(motion: str, seed: int, repeat: int = 0) -> Case:
 def _drawn(
     rng: np.random.Generator, motion: str, fluid: str, lay: str, *, slight: bool, light: bool, thin: bool, repeat: int
 ) -> Case | None:
-    """Return one draw, of ``slight`` sliding as in a bearing, under a ``light`` load and with a ``thin`` film; None where
-    its grid has too many columns."""
+    """Return one draw, of ``slight`` sliding as in a bearing, under a ``light`` load and with a ``thin`` film; None
+    where its grid has too many columns."""
 
     def between(low: float, high: float) -> float:
         return float(math.exp(rng.uniform(math.log(low), math.log(high))))
@@ -198,7 +198,8 @@ def _drawn(
 
 
 def _oil(rng: np.random.Generator, fluid: str, friction: float) -> Keywords:
-    """Return keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit below."""
+    """Return keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit
+    below."""
     eyring = math.exp(rng.uniform(math.log(3e6), math.log(15e6)))
     near = friction * rng.uniform(0.8, 1.25)
     low = friction * rng.uniform(0.3, 0.8)

@@ -14,14 +14,15 @@ from lubfric.models.quick import (
 
 from .case import Case
 
-# Cells along x in a correlation length on which a case is solved, by motion: at rest those of the model alone; where the
-# roughness moves both that it chooses from.
+# Cells along x in a correlation length on which a case is solved, by motion: at rest those of the model alone; where
+# the roughness moves both that it chooses from.
 PER_LENGTH = {"rest": (0.0,), "rolling": (CELLS_IN_MOTION[0], CELLS_OF_THIN_FILM)}
 
 
 def quick(case: Case, per_length: float) -> dict[str, float]:
-    """Return the numbers of the strip of ``case`` on long cells, of which so many along x are in a correlation length (at rest
-    it does not count); ``film_at_rest``: the number by which the model chooses them; ``seconds``: processor time [s]."""
+    """Return the numbers of the strip of ``case`` on long cells, of which so many along x are in a correlation length
+    (at rest it does not count); ``film_at_rest``: the number by which the model chooses them; ``seconds``: processor
+    time [s]."""
     begun = time.process_time()
     facts = case.facts
     lengths = (facts["length_x"], facts["length_y"])

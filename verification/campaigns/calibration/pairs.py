@@ -1,7 +1,7 @@
 """Pairs of similar contacts: how the errors of the cheap models change from one design to another.
 
-A pair is a case of the table and the same case with one input changed, on the same map. The error of ln f of both, by the quick model
-and by load sharing, is that against the deterministic model.
+A pair is a case of the table and the same case with one input changed, on the same map. The error of ln f of both, by
+the quick model and by load sharing, is that against the deterministic model.
 """
 
 import math
@@ -146,8 +146,8 @@ def _columns(name: str, error: ErrorOfModel) -> PlainRow:
 
 
 def extend(motion: str, count: int, budget: float, file: Path = PAIRS) -> Iterator[PlainRow]:
-    """Solve the first so many (``count``) pairs of a ``motion`` that the table in ``file`` has not, as long as the time of this process
-    is below ``budget`` [s], and append each."""
+    """Solve the first so many (``count``) pairs of a ``motion`` that the table in ``file`` has not, as long as the time
+    of this process is below ``budget`` [s], and append each."""
     known = {int(row["number"]) for row in table_file.rows(file) if row["motion"] == motion}
     for number in range(count):
         if number in known:
@@ -160,8 +160,8 @@ def extend(motion: str, count: int, budget: float, file: Path = PAIRS) -> Iterat
 
 
 def share_within(rows: list[dict[str, str]], model: str, correlation: float) -> float:
-    """Return the share of the pairs in ``rows`` whose difference of the errors of ln f by a ``model`` is within the error that both
-    half-widths and a ``correlation`` give it."""
+    """Return the share of the pairs in ``rows`` whose difference of the errors of ln f by a ``model`` is within the
+    error that both half-widths and a ``correlation`` give it."""
     names = ("error", "half_width", "other_error", "other_half_width")
     (one, width, other, other_width) = np.array([[float(row[f"{model}_{name}"]) for name in names] for row in rows]).T
     of_difference = np.sqrt(width**2 + other_width**2 - 2.0 * correlation * width * other_width)
@@ -169,8 +169,8 @@ def share_within(rows: list[dict[str, str]], model: str, correlation: float) -> 
 
 
 def coverage(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Yield for each motion and model the share of the pairs whose difference is within its error, with the correlation that a study
-    takes, and with none."""
+    """Yield for each motion and model the share of the pairs whose difference is within its error, with the correlation
+    that a study takes, and with none."""
     assert max(FACTORS) == math.exp(COMPARED_DISTANCE)
     for motion in MOTIONS:
         rows = [row for row in table_file.rows(PAIRS) if row["motion"] == motion and not row["failure"]]

@@ -40,8 +40,8 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def solved(case: Case, seconds: float) -> PlainRow:
-    """Return the row of ``case``; where a model has no answer within so many ``seconds`` of processor time, ``failure`` says
-    why."""
+    """Return the row of ``case``; where a model has no answer within so many ``seconds`` of processor time, ``failure``
+    says why."""
     row = case.facts | {f"map_{name}": value for name, value in map_facts(case).items()}
     begun = time.process_time()
     try:

@@ -42,7 +42,8 @@ def _finest(acf: str, finest: int = 2048) -> np.ndarray:
 
 
 def cases(*, quick: bool) -> dict[str, MeasuredCase]:
-    """Return panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
+    """Return panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for
+    grids."""
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     surfaces, repeats = (("gaussian",), 1) if quick else (("exponential", "gaussian"), 3)
@@ -128,7 +129,8 @@ def attempt(solve: Callable[[float], np.ndarray], tolerance: float) -> np.ndarra
 
 
 def grids(acf: str, sizes: Sequence[int]) -> list[PlainRow]:
-    """Return contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
+    """Return contact area and mean gap of one surface on coarser grids against the finest, with a solver error of
+    1e-6."""
     solved = {}
     values = []
     for n in sizes:

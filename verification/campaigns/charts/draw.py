@@ -14,7 +14,8 @@ EQUAL = 1e-5  # error of the pressure at which methods are compared
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to quartile.
+    """Draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to
+    quartile.
 
     A solver with an error of 100 % has failed; its points are not drawn.
     """

@@ -22,8 +22,8 @@ Quartiles = tuple[float, float, float]  # median, lower, upper, of processor sec
 def point(
     panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
 ) -> PlainRow:
-    """Return one setting of one method, as a check in plain types: its error against a tight solution, its time, and where it
-    is drawn.
+    """Return one setting of one method, as a check in plain types: its error against a tight solution, its time, and
+    where it is drawn.
 
     ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
     not that of the solver), size (unknowns).
@@ -37,7 +37,8 @@ def point(
 
 
 def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
-    """Return {name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every repeat."""
+    """Return {name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every
+    repeat."""
     seconds: dict[K, list[float]] = {name: [] for name in calls}
     values: dict[K, V] = {}
     for _ in range(repeats):

@@ -1,7 +1,7 @@
 """The chart of the quick model: error of f against time on the random contacts of the campaign "calibration".
 
-Five kinds of contact, with the roughness at rest and moving. Errors are |ln| of f over the reference, their median and the
-range of the middle half of the contacts. The quick model is without the bias of a fit to other lays or loads. The
+Five kinds of contact, with the roughness at rest and moving. Errors are |ln| of f over the reference, their median and
+the range of the middle half of the contacts. The quick model is without the bias of a fit to other lays or loads. The
 deterministic model on long cells is the same without that bias, and on short ones it is the reference before the
 correction for its own cells. Times are processor seconds on one strip. All numbers are those of the campaign's tables.
 """

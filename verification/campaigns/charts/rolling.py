@@ -3,9 +3,9 @@ strip of moving roughness over a whole pass, by the quick model, and by load sha
 
 The quick model and load sharing are solved here. The default and the whole pass are the rows of the campaign
 ``moving_coverage``, with its reference, which has cells half as long. The answers of version 0.2.0 (commit 28b80684,
-`BEFORE`) were solved by `levels_of` of that version on the same scenes with ``numerics.model = "deterministic"``. An error
-is the root mean square over surfaces of other seeds; a time is that of one answer, without ranges of inputs but for the
-models solved here.
+`BEFORE`) were solved by `levels_of` of that version on the same scenes with ``numerics.model = "deterministic"``. An
+error is the root mean square over surfaces of other seeds; a time is that of one answer, without ranges of inputs but
+for the models solved here.
 """
 
 import time

@@ -1,5 +1,5 @@
-"""``python -m verification.campaigns.estimates COUNT [--workers N] [--seconds S] [--docs docs]``: extend the table of runs,
-and show how far the estimates are from them."""
+"""``python -m verification.campaigns.estimates COUNT [--workers N] [--seconds S] [--docs docs]``: extend the table of
+runs, and show how far the estimates are from them."""
 
 from .. import extending
 

@@ -74,7 +74,8 @@ DRAWS = 100  # draws, at most, until an estimate is short enough
 CELLS_IN_LENGTH = 5.0  # cells in a correlation length of a patch that runs in
 LENGTHS_IN_PATCH = 10.0  # correlation lengths in its side
 STRIPS_IN_PATCH = 4.0  # Hertz half-widths in its side
-# Ends of the cells in the shortest correlation length of a patch at a point, and of the correlation lengths in its sides.
+# Ends of the cells in the shortest correlation length of a patch at a point, and of the correlation lengths in its
+# sides.
 CELLS_OF_POINT = (4.0, 24.0)
 LENGTHS_OF_POINT = (4.0, 14.0)
 # Cells along each side of such a patch come in multiples of one of these numbers.
@@ -89,7 +90,8 @@ HALVINGS = 60
 
 @dataclass(frozen=True, kw_only=True)
 class RandomRun:
-    """A run: its ``kind``, the number of its ``draw``, its ``scene``, the ``estimate`` [s], and the call that does it."""
+    """A run: its ``kind``, the number of its ``draw``, its ``scene``, the ``estimate`` [s], and the call that does
+    it."""
 
     kind: str
     draw: int
@@ -99,7 +101,8 @@ class RandomRun:
 
 
 def kind_of(seed: int) -> str:
-    """Return the kind of run number ``seed``: one on a patch from `FIRST_PATCH` on, one that is measured from `FIRST_MEASURED` on."""
+    """Return the kind of run number ``seed``: one on a patch from `FIRST_PATCH` on, one that is measured from
+    `FIRST_MEASURED` on."""
     kinds: tuple[str, ...] = KINDS
     if seed >= FIRST_PATCH:
         kinds = PATCH_KINDS if seed < FIRST_MEASURED else MEASURED_KINDS
@@ -107,8 +110,9 @@ def kind_of(seed: int) -> str:
 
 
 def drawn(seed: int, draw: int | None = None) -> RandomRun:
-    """Return the random run number ``seed``. Its kind (`kind_of`) follows from the number. A run that is estimated to take more than
-    `LONGEST`, or that is refused, is drawn again; ``draw``: the number of the draw, where it is known."""
+    """Return the random run number ``seed``. Its kind (`kind_of`) follows from the number. A run that is estimated to
+    take more than `LONGEST`, or that is refused, is drawn again; ``draw``: the number of the draw, where it is
+    known."""
     kind = kind_of(seed)
     if draw is not None:
         return _drawn(seed, draw, kind)
@@ -208,8 +212,8 @@ def _scene(rng: np.random.Generator, kind: str) -> lubfric.Scene:
 
 
 def _patch(scene: lubfric.Scene) -> dict[str, object]:
-    """Return the keys of a patch that is longer than the Hertz strip and than some correlation lengths, on five cells in
-    the shortest of them."""
+    """Return the keys of a patch that is longer than the Hertz strip and than some correlation lengths, on five cells
+    in the shortest of them."""
     given = scene.surface.correlation_length or 0.0
     lengths = given if isinstance(given, tuple) else (given, given)
     spacing = min(lengths) / CELLS_IN_LENGTH

@@ -1,13 +1,14 @@
 """The table of runs: what each was estimated to take, the counted work, and the processor time that it took.
 
-The processor seconds of a run are those on the stated core (`pace.paced`). Runs done on other machines are scaled by runs
-that took the same counted work on both. The runs below number 38 by the quick and the deterministic model and with moving
-roughness: divided by 1.87, the median ratio of 15 runs. The twelve from number 41 on, after number 349: after `paced` by 1.69,
-that of 13 runs, 1.25 to 2.35; the machine was shared, and Python slows more there than the transform that `paced` times. Those
-after number 110: as `paced` gives them; 11 earlier runs, repeated there, took 1.03 times as long, 0.9 to 1.45; that machine was
-shared, too. So was that of the last 33 runs below number 10000, and of those on patches above it, with two threads on one core.
-The rolling points were done again there, or for the first time from number 512 on, and so were the fits; and the patches at rest
-whose shorter cells no longer end in vain. All estimates but those that are measured are of the present code (`--again`).
+The processor seconds of a run are those on the stated core (`pace.paced`). Runs done on other machines are scaled by
+runs that took the same counted work on both. The runs below number 38 by the quick and the deterministic model and with
+moving roughness: divided by 1.87, the median ratio of 15 runs. The twelve from number 41 on, after number 349: after
+`paced` by 1.69, that of 13 runs, 1.25 to 2.35; the machine was shared, and Python slows more there than the transform
+that `paced` times. Those after number 110: as `paced` gives them; 11 earlier runs, repeated there, took 1.03 times as
+long, 0.9 to 1.45; that machine was shared, too. So was that of the last 33 runs below number 10000, and of those on
+patches above it, with two threads on one core. The rolling points were done again there, or for the first time from
+number 512 on, and so were the fits; and the patches at rest whose shorter cells no longer end in vain. All estimates
+but those that are measured are of the present code (`--again`).
 """
 
 import math
@@ -109,9 +110,9 @@ class RowOfRun:
 def extend(
     count: int, seconds: float, workers: int, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0
 ) -> Iterator[PlainRow]:
-    """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, in so many processes
-    (``workers``), and append each as it ends; those that take longer than ``seconds`` of elapsed time in all are left
-    out."""
+    """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, in so many
+    processes (``workers``), and append each as it ends; those that take longer than ``seconds`` of elapsed time in all
+    are left out."""
     known = {int(row["seed"]) for row in rows(file)}
     left = [RowOfRun(n) for n in range(first, count) if n not in known and kind_of(n) in kinds]
     for row in solved_in_processes(left, seconds, workers):
@@ -120,8 +121,8 @@ def extend(
 
 
 def estimate_again(file: Path = TABLE) -> None:
-    """Estimate the runs of the table again, and write it anew: none is done. The estimates of `MEASURED_KINDS` stay: like the time
-    that these runs took, they are of the core at that moment."""
+    """Estimate the runs of the table again, and write it anew: none is done. The estimates of `MEASURED_KINDS` stay:
+    like the time that these runs took, they are of the core at that moment."""
     old = rows(file)
     for row in old:
         if row["kind"] in MEASURED_KINDS:
@@ -134,8 +135,8 @@ def estimate_again(file: Path = TABLE) -> None:
 
 
 def rows_with_ratio(file: Path = TABLE) -> Iterator[tuple[dict[str, str], float]]:
-    """Yield the rows of runs that say how good an estimate is, and their estimated over taken processor time: all but those that
-    ``numerics.max_work`` ended before they took three times their estimate."""
+    """Yield the rows of runs that say how good an estimate is, and their estimated over taken processor time: all but
+    those that ``numerics.max_work`` ended before they took three times their estimate."""
     for row in rows(file):
         if row["seconds"] and row["estimate"]:
             ratio = float(row["estimate"]) / float(row["seconds"])
@@ -152,8 +153,8 @@ def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
 
 
 def table(file: Path = TABLE, *, brief: bool = False) -> Table:
-    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio; ``brief``: the
-    part within 3 alone, by `GROUPS`."""
+    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio;
+    ``brief``: the part within 3 alone, by `GROUPS`."""
     of_kind: dict[str, np.ndarray] = {}
     for kind, values in ratios(file).items():
         name = GROUPS[kind.split()[0]] if brief else kind

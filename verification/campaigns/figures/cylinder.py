@@ -51,8 +51,8 @@ def real_surface() -> Path | None:
 
 
 def friction_by_model(case: tuple[tuple[str, float, int], FloatArray, str]) -> list[list[float]]:
-    """Return friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an ``axis``
-    of its file along the motion, on the ground surface scaled to 100 nm with all but the flat strip."""
+    """Return friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an
+    ``axis`` of its file along the motion, on the ground surface scaled to 100 nm with all but the flat strip."""
     (acf, length, seed), speeds, axis = case
     scene = scene_of(acf, length, seed)
     models = list(MODELS.values())
@@ -145,8 +145,9 @@ def _agrees(speeds: FloatArray, most: float, real: dict[str, np.ndarray], table:
     bracket = f"the paper's 0.225 N is within the range of the seeds for {', '.join(inside) or 'no length'} µm"
     bracket += f", and above that range for {', '.join(below)} µm" if below else ""
     text = (
-        "All models agree in full-film lubrication and at low speed. Plastic deformation lowers the friction slightly (at "
-        f"most {100 * most:.1f} %), as in the paper. F_H at 0.001 m/s grows with the correlation length: {bracket}. "
+        "All models agree in full-film lubrication and at low speed. Plastic deformation lowers the friction slightly "
+        f"(at most {100 * most:.1f} %), as in the paper. F_H at 0.001 m/s grows with the correlation length: "
+        f"{bracket}. "
     )
     if not real:
         where = "(LUBFRIC_SURFACES, ../shared/surfaces)"
@@ -157,8 +158,8 @@ def _agrees(speeds: FloatArray, most: float, real: dict[str, np.ndarray], table:
     )
     above = " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values())
     return (
-        f"{text}On the measured ground surface, scaled to 100 nm, at {speeds[i]:.2g} m/s: {result}. The asperity model is "
-        f"up to {above} above the half-space, as in the paper."
+        f"{text}On the measured ground surface, scaled to 100 nm, at {speeds[i]:.2g} m/s: {result}. The asperity "
+        f"model is up to {above} above the half-space, as in the paper."
     )
 
 
@@ -170,11 +171,11 @@ def _differs(curves: dict[tuple[str, float], np.ndarray]) -> str:
         a, b = (100 * float(v[np.argmax(np.abs(v))]) for v in off)
         lines.append(f"{acf}: {a:+.0f} % (under the cylinder), {b:+.0f} % (flat strip)")
     return (
-        "In the paper the asperity curve is clearly above the other two. On generated surfaces its largest deviation from "
-        f"the elastic half-space is {'; '.join(lines)}. On the flat strip, fine ripples (exponential) put the asperity "
-        "model above, broad summits below. Under the cylinder, independent asperities also omit the flattening by the "
-        "total contact load. The surface, the asperities and the measured friction of the paper are not published as "
-        "numbers."
+        "In the paper the asperity curve is clearly above the other two. On generated surfaces its largest deviation "
+        f"from the elastic half-space is {'; '.join(lines)}. On the flat strip, fine ripples (exponential) put the "
+        "asperity model above, broad summits below. Under the cylinder, independent asperities also omit the "
+        "flattening by the total contact load. The surface, the asperities and the measured friction of the paper are "
+        "not published as numbers."
     )
 
 

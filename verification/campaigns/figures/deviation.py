@@ -71,8 +71,8 @@ def both_models(case: tuple[str, float, int, Sequence[float], FloatArray, int]) 
 
 
 def signed_deviation(asperity: np.ndarray, half_space: np.ndarray) -> tuple[float, int]:
-    """Return d [-] of Eq. (13), the largest difference over the f of the asperities, positive where they give more friction,
-    and the index of its speed; (NaN, -1) without points."""
+    """Return d [-] of Eq. (13), the largest difference over the f of the asperities, positive where they give more
+    friction, and the index of its speed; (NaN, -1) without points."""
     difference = np.abs(asperity - half_space)
     if not np.isfinite(difference).any():
         return math.nan, -1

@@ -15,8 +15,8 @@ SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re
 
 
 def picture(name: str, title: str, agrees: str, differs: str, canvas: Canvas) -> Figure:
-    """Return the drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
-    paper, and what does not, and why."""
+    """Return the drawn figure, small enough for the documents, with its section of the page as caption: what agrees
+    with the paper, and what does not, and why."""
     section = (
         f"### {title}\n\n![{name}](images/{name}.png)\n\n"
         f"{wrapped(f'**Agrees.** {agrees}')}\n\n{wrapped(f'**Differs, and why.** {differs}')}\n"

@@ -27,7 +27,8 @@ def rough(
 
 
 def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Both lengths with both autocorrelation functions: the length that the generator was given, and the lengths measured on the maps."""
+    """Both lengths with both autocorrelation functions: the length that the generator was given, and the lengths
+    measured on the maps."""
     count = 400 if level == "quick" else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
     rows: list[tuple[str, float, float, float, float, float]] = []

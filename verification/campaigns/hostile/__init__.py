@@ -1,8 +1,8 @@
 """Bad input from a seeded generator: scenes, files and calls that must each be refused with a message.
 
-`scenes`, `files`, `calls`, `layouts` and `commands` make the cases; those written by hand are in `bad.toml`. `case.judge` runs a
-case and returns how it ended. No case may end in an exception that is not lubfric's own, return a number, take longer
-than 8 s, or take more than 2 GB.
+`scenes`, `files`, `calls`, `layouts` and `commands` make the cases; those written by hand are in `bad.toml`.
+`case.judge` runs a case and returns how it ended. No case may end in an exception that is not lubfric's own, return a
+number, take longer than 8 s, or take more than 2 GB.
 """
 
 from __future__ import annotations

@@ -43,8 +43,8 @@ def peak_memory() -> int:
 
 
 def resident_memory() -> int:
-    """Return resident size of this process [bytes] after a garbage collection; the largest so far where the system reports
-    only this."""
+    """Return resident size of this process [bytes] after a garbage collection; the largest so far where the system
+    reports only this."""
     gc.collect()
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
@@ -54,7 +54,8 @@ def resident_memory() -> int:
 
 
 def judge(case: HostileCase, folder: Path) -> tuple[str, str]:
-    """Return (verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
+    """Return (verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one
+    paragraph."""
     before = peak_memory()
     begun = time.process_time()
     try:

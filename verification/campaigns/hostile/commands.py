@@ -1,4 +1,5 @@
-"""The commands of lubfric with odd values of their options, in odd combinations: each ends with an exit code and a line."""
+"""The commands of lubfric with odd values of their options, in odd combinations: each ends with an exit code and a
+line."""
 
 import contextlib
 import io
@@ -47,7 +48,8 @@ class UncleanEndError(Exception):
 
 
 def write_inputs(folder: Path) -> None:
-    """Write a scene that is solved in no time, a study of it, a table of points, a measured curve, and two broken files."""
+    """Write a scene that is solved in no time, a study of it, a table of points, a measured curve, and two broken
+    files."""
     scene = lubfric.load_scene("paper").with_(
         contact={"shape": (48, 48), "spacing": 1.1e-6},
         surface={"correlation_length": 4e-6},

@@ -94,7 +94,8 @@ def header_of(draw: Draw, z: np.ndarray, unit: str) -> str:
 
 
 def header(draw: Draw, folder: Path) -> str:
-    """Return a header in any order above a matrix whose lines run along x or along y; a square table is not decided by it."""
+    """Return a header in any order above a matrix whose lines run along x or along y; a square table is not decided by
+    it."""
     z = rough_map(draw)[:, :7]
     unit = str(draw.choice(list(UNITS)))
     table = z.T if draw.random() < 0.5 else z

@@ -99,8 +99,8 @@ def _couette(
     *,
     hot: bool = True,
 ) -> float:
-    """Return couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
-    as at its first node. That of a film that heats itself is taken from fewer nodes."""
+    """Return couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its
+    own heat as at its first node. That of a film that heats itself is taken from fewer nodes."""
     oil = scene.lubricant
     slide = abs(scene.motion.slide_roll_ratio * speed)
     upstream = oil.viscosity * slide * _upstream(x[0], h[0], scene.bodies.radius) if slide else 0.0

@@ -126,7 +126,8 @@ def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def _viscosity(oil: Lubricant, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
+    """Return ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise
+    exponential."""
     t0 = the(oil.temperature, "temperature")
     beta = the(oil.temperature_coefficient, "temperature coefficient")
     cold = math.log(oil.viscosity) + log_ratio

@@ -96,8 +96,8 @@ class Judge:
         )
 
     def film(self, film_load: float, modulus: float) -> EHLResult:
-        """Return the film by differential deflection, or by the tightest Newton solution where that does not converge or where
-        shear thins the flow."""
+        """Return the film by differential deflection, or by the tightest Newton solution where that does not converge
+        or where shear thins the flow."""
         scene = self.prepared.scene
         case = case_of_scene(scene, film_load, self.speed)
         case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
@@ -111,7 +111,8 @@ class Judge:
         return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
     def pressed(self, strip: MappedStrip, film: EHLResult, load: float) -> tuple[float, float, np.ndarray]:
-        """Return mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
+        """Return mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load``
+        [N]."""
         scene = self.prepared.scene
         x = strip.x
         smooth = film.film_at(x)
@@ -158,7 +159,8 @@ class Judge:
 
 
 def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
-    """Return what solves the balance of ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
+    """Return what solves the balance of ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the
+    result."""
     scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
     cancels = abs(result.coefficient) * scene.bodies.load < CANCELS * parts

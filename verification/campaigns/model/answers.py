@@ -172,7 +172,8 @@ def answers(level: str, run: Run = Run(), *, rollers: bool = False) -> Iterator[
 def compared(
     name: str, result: list[tuple[tuple[str, str], list[tuple[float, float, float]]]], failed: int, source: str
 ) -> Iterator[Item]:
-    """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
+    """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is
+    `interval_error`."""
     every = {way: np.array([sides[k] for _, sides in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
     all_names = dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result))))
     # without those of loads, which differ less than surfaces
@@ -205,8 +206,8 @@ def compared(
 
 
 def interval_error(row: PlainRow, truth: PlainRow) -> tuple[float, float, float]:
-    """Return half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
-    the reference allow; all relative to the reference."""
+    """Return half of the interval; by how much f is off; and how much of that its interval on this side and twice the
+    error of the reference allow; all relative to the reference."""
     f = row["f"]
     t = truth["f"]
     side = f - row["low"] if f > t else row["high"] - f

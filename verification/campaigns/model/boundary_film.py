@@ -128,7 +128,8 @@ def rough(kind: str) -> lubfric.Surface:
 
 
 def speed_of(scene: Scene, film: float) -> float:
-    """Return U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
+    """Return U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between
+    them."""
     slow = 0.1
     fast = 1.0
     cases = (case_of_scene(scene, scene.bodies.load, speed) for speed in (slow, fast))

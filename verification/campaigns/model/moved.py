@@ -35,9 +35,9 @@ BALANCES = "mass", "load", "gap", "bounds"
 
 
 def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> PlainRow:
-    """Return means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
-    gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
-    touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
+    """Return means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and
+    ``mean`` gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant
+    that touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
     both_maps = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
     upper = next((body.surface for body in bodies if body.upper), None)

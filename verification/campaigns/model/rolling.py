@@ -187,5 +187,6 @@ def drawn(rows: list[tuple[RollingCase, PlainRow]]) -> Figure:
     return plotting.finish(
         "rolling",
         canvas,
-        "Moving roughness (lines), load-sharing model of the paper (dashed), four published laws of the asperity load ratio (grey)",
+        "Moving roughness (lines), load-sharing model of the paper (dashed), four published laws of the asperity load "
+        "ratio (grey)",
     )

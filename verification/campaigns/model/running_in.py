@@ -32,7 +32,8 @@ PUBLISHED_SPEED = 0.10  # speed of full film after over before, at the least
 def running_in(level: str, run: Run = Run()) -> Iterator[Item]:
     """Sq, lift-off speed, friction and asperity load of a steel roller of 1 GPa and 7 GPa hardness over the distance:
     first the dents, then wear by Archard's law. Published: a ball on a disc lost up to 17 % of Sq and 90 % of the
-    speed at which the film is full. That is a point contact with additives, so the ranges are a bracket, not a target."""
+    speed at which the film is full. That is a point contact with additives, so the ranges are a bracket, not a
+    target."""
     cases = {kind: (kind, SHAPES[level]) for kind in LENGTHS}
     solved = list(run.solved(cases, history))
     rows = []
@@ -66,8 +67,8 @@ def running_in(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def history(case: tuple[str, tuple[int, int]]) -> list[list[float]]:
-    """Return distance [m], Sq over that as made, lift-off speed [m/s], asperity load ratio and f: as made, after the dents
-    (distance 0), and at each recorded distance."""
+    """Return distance [m], Sq over that as made, lift-off speed [m/s], asperity load ratio and f: as made, after the
+    dents (distance 0), and at each recorded distance."""
     kind, shape = case
     scene = roller()
     made = lubfric.generate_surface(shape, CELL, sq=SQ, correlation_length=LENGTHS[kind], acf="gaussian", seed=11)

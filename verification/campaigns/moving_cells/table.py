@@ -1,5 +1,5 @@
-"""The table: f of narrow strips on the cells of an answer and on shorter ones along x or along y, over the same way, with
-the same roughness at the same places; and what the answer states as its error by them."""
+"""The table: f of narrow strips on the cells of an answer and on shorter ones along x or along y, over the same way,
+with the same roughness at the same places; and what the answer states as its error by them."""
 
 import math
 import time
@@ -51,7 +51,8 @@ DIGITS = 6  # of a number in the table
 
 
 def cases() -> dict[str, RollingContact]:
-    """Return the contacts of `moving_coverage`, the needle roller at other speeds, and the light contact sliding more."""
+    """Return the contacts of `moving_coverage`, the needle roller at other speeds, and the light contact sliding
+    more."""
     every = {contact.name: contact for contact in contacts()}
     needle = every["needle roller"]
     others = [replace(needle, name=f"needle roller, {speed:g} m/s", speed=speed) for speed in SPEEDS]
@@ -62,8 +63,8 @@ def cases() -> dict[str, RollingContact]:
 
 
 def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> PlainRow:
-    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along ``axis``, "x", "y" or "xy" for
-    both; for -1 doubled along y."""
+    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along ``axis``, "x", "y" or "xy"
+    for both; for -1 doubled along y."""
     prepared, bodies, (fx, fy) = narrow_strip(contact, seed, HALVINGS[axis])
     scene = prepared.scene
     along_x = max(halvings, 0) if "x" in axis else 0
@@ -114,8 +115,8 @@ class CellJob:
 
 
 def jobs_left(halvings: int, seeds: int, numbers: Sequence[int], file: Path) -> list[CellJob]:
-    """Return what the table has not, the longest cells first: so many ``halvings`` of the cells of `cases`, and one of both
-    axes of the random contacts of these ``numbers``. Along y the longest cells are twice those of an answer."""
+    """Return what the table has not, the longest cells first: so many ``halvings`` of the cells of `cases`, and one of
+    both axes of the random contacts of these ``numbers``. Along y the longest cells are twice those of an answer."""
     known = {(row["contact"], row["seed"], row["axis"], row["halvings"]) for row in table_file.rows(file)}
     levels = [
         ("y", -1),
@@ -134,8 +135,8 @@ def extend(jobs: Sequence[CellJob], seconds: float, file: Path = TABLE, workers:
 
 
 def errors(file: Path = TABLE) -> Iterator[PlainRow]:
-    """Yield of each strip and axis the error of f on the cells of an answer, relative, the ``expected`` one, by which f is
-    corrected, what this has ``left``, and what the answer states for it.
+    """Yield of each strip and axis the error of f on the cells of an answer, relative, the ``expected`` one, by which f
+    is corrected, what this has ``left``, and what the answer states for it.
 
     The limit of f is that of second order from the two shortest cells, because the flow by the pressure is of second
     order; ``order`` [-]: the seen one (NaN: from fewer than three lengths of cells, or where they do not converge).
@@ -169,8 +170,8 @@ def errors(file: Path = TABLE) -> Iterator[PlainRow]:
 
 
 def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
-    """Return the cells of an answer along ``axis``, of the ``rows`` of one strip by their halvings; as if those along the
-    other one were short."""
+    """Return the cells of an answer along ``axis``, of the ``rows`` of one strip by their halvings; as if those along
+    the other one were short."""
     row = rows[0]
     f = float(row["f"])
     contact = contact_of(row["contact"])

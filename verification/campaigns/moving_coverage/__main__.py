@@ -1,4 +1,5 @@
-"""``python -m verification.campaigns.moving_coverage [--answers N] [--random A B]``: extend the tables of answers and references."""
+"""``python -m verification.campaigns.moving_coverage [--answers N] [--random A B]``: extend the tables of answers and
+references."""
 
 from pathlib import Path
 
@@ -8,7 +9,8 @@ from .. import extending
 from .contacts import RANDOM, contacts
 from .table import FOLDER, covered, extend, jobs_left
 
-# Rows of a contact with a name, and of a random one: answers, strips of the reference, and narrow strips on shorter cells.
+# Rows of a contact with a name, and of a random one: answers, strips of the reference, and narrow strips on shorter
+# cells.
 COUNTS = {"answers": (10, 3), "strips": (3, 3), "narrow": (3, 3)}
 
 

@@ -1,4 +1,5 @@
-"""The tables as items of ``python -m verification model``: how often moving answers hold the friction of the endless line."""
+"""The tables as items of ``python -m verification model``: how often moving answers hold the friction of the endless
+line."""
 
 import math
 from collections.abc import Iterator
@@ -8,7 +9,8 @@ from ...check import ABSOLUTE, REPORTED, Check, Item, Table
 from ...kept import Run
 from .table import FOLDER, covered, judged_answers, summary
 
-# Share of the answers that hold it: the expected one, and how far it may be off: two standard deviations of 120 answers.
+# Share of the answers that hold it: the expected one, and how far it may be off: two standard deviations of 120
+# answers.
 INSIDE = (0.95, 0.04)
 
 SOURCE = "whole passes of other strips, on cells half as long, extrapolated"
@@ -16,8 +18,8 @@ COLUMNS = ("", "answers", "inside", "rms error", "half-width", "by cells", "erro
 
 
 def coverage(level: str, run: Run = Run(), *, folder: Path = FOLDER) -> Iterator[Item]:
-    """Yield table and checks of the answers that ``python -m verification.campaigns.moving_coverage`` has solved. Nothing
-    is solved here, at any ``level``, and ``run`` keeps nothing."""
+    """Yield table and checks of the answers that ``python -m verification.campaigns.moving_coverage`` has solved.
+    Nothing is solved here, at any ``level``, and ``run`` keeps nothing."""
     del level, run
     answers = list(judged_answers(folder))
     groups = [*covered(folder)] + ([{"contact": "all"} | summary(answers)] if answers else [])

@@ -1,10 +1,11 @@
-"""The tables: moving answers on surfaces of their own, and the friction of the endless line that they are compared with.
+"""The tables: moving answers on surfaces of their own, and the friction of the endless line that they are compared
+with.
 
-An answer is one strip, followed until its error is within the tolerance of the scene, as `lubfric.friction` takes it. Its
-half-width here has the sampling error and that of the cells only. The reference of a contact is the mean over other
-strips, each followed over a whole pass after a longer discard, times the change of f on shorter and shorter cells. That is
-the mean change on cells half as long along both axes of narrower strips, over the same way, and a third of it more: the
-limit of second order (`moving_cells`).
+An answer is one strip, followed until its error is within the tolerance of the scene, as `lubfric.friction` takes it.
+Its half-width here has the sampling error and that of the cells only. The reference of a contact is the mean over other
+strips, each followed over a whole pass after a longer discard, times the change of f on shorter and shorter cells. That
+is the mean change on cells half as long along both axes of narrower strips, over the same way, and a third of it more:
+the limit of second order (`moving_cells`).
 """
 
 import math
@@ -84,8 +85,8 @@ LIMIT = 4.0 / 3.0
 # Standard errors of the reference that an answer may be off beyond its own half-width.
 OF_REFERENCE = 2.0
 
-# Scatter of the change by cells between narrow strips: a share of its mean, and at least so much, relative to f [-]. Of 14
-# contacts with two or three narrow strips, ten scatter by less.
+# Scatter of the change by cells between narrow strips: a share of its mean, and at least so much, relative to f [-]. Of
+# 14 contacts with two or three narrow strips, ten scatter by less.
 NARROW_SCATTER = (0.25, 0.005)
 
 DIGITS = 7  # of a number in the tables
@@ -164,8 +165,8 @@ def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
 def narrow_strip(
     contact: RollingContact, seed: int, halvings: tuple[int, int]
 ) -> tuple[Prepared, list[RoughBody], tuple[int, int]]:
-    """Return the prepared scene of ``contact``, rough bodies `NARROW` correlation lengths wide on cells halved so often along x and
-    y, and the length of the cells of an answer in these."""
+    """Return the prepared scene of ``contact``, rough bodies `NARROW` correlation lengths wide on cells halved so often
+    along x and y, and the length of the cells of an answer in these."""
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
     _, (fx, fy) = surface_and_map_coarsening(prepared, 0)
@@ -206,7 +207,8 @@ KINDS = {"strip": reference_strip, "cells": change_by_cells}
 
 @dataclass(frozen=True)
 class CoverageJob:
-    """One row of a table: an answer, or a ``kind`` of reference, of the contact of this ``name`` on surfaces of ``seed``."""
+    """One row of a table: an answer, or a ``kind`` of reference, of the contact of this ``name`` on surfaces of
+    ``seed``."""
 
     kind: str
     name: str
@@ -243,8 +245,8 @@ def jobs_left(folder: Path, names: Sequence[str], *, answers: int, strips: int, 
 
 
 def extend(jobs: Sequence[CoverageJob], seconds: float, folder: Path = FOLDER, workers: int = 1) -> Iterator[PlainRow]:
-    """Solve ``jobs`` in so many processes, and append each row to the tables in ``folder`` when it is solved; after so many
-    ``seconds`` of elapsed time those that are not ready are left out."""
+    """Solve ``jobs`` in so many processes, and append each row to the tables in ``folder`` when it is solved; after so
+    many ``seconds`` of elapsed time those that are not ready are left out."""
     for row in extending.solved_in_processes(jobs, seconds, workers):
         (file, columns) = (ANSWERS, ANSWER_COLUMNS) if row["kind"] == ANSWER else (REFERENCES, REFERENCE_COLUMNS)
         table_file.append(folder / file, columns, row, DIGITS)
@@ -253,17 +255,19 @@ def extend(jobs: Sequence[CoverageJob], seconds: float, folder: Path = FOLDER, w
 
 @dataclass(frozen=True, kw_only=True)
 class Reference:
-    """f of the infinite line contact on short cells, with its relative standard error; ``strips``: of other surfaces."""
+    """f of the infinite line contact on short cells, with its relative standard error; ``strips``: of other
+    surfaces."""
 
     coefficient: float
     error: float
 
 
 def reference_of(rows: Sequence[dict[str, str]]) -> Reference | None:
-    """Return the reference by the ``rows`` of one contact; None where they lack strips, or narrow strips on shorter cells.
+    """Return the reference by the ``rows`` of one contact; None where they lack strips, or narrow strips on shorter
+    cells.
 
-    The error of the strips is that of their blocks, or that by their scatter where it is larger. That of the narrow strips
-    is by their scatter, or by that of all contacts (`NARROW_SCATTER`) where it is larger.
+    The error of the strips is that of their blocks, or that by their scatter where it is larger. That of the narrow
+    strips is by their scatter, or by that of all contacts (`NARROW_SCATTER`) where it is larger.
     """
     strips = [row for row in rows if row["kind"] == "strip" and not row["failure"]]
     limits = [1.0 + LIMIT * (float(row["f"]) - 1.0) for row in rows if row["kind"] == "cells" and not row["failure"]]
@@ -282,8 +286,8 @@ def reference_of(rows: Sequence[dict[str, str]]) -> Reference | None:
 
 @dataclass(frozen=True, kw_only=True)
 class Judged:
-    """One answer and its reference: the relative ``deviation`` from it, the ``half_width`` of the answer and its part by the
-    ``cells``, the reference, and what the answer took: processor time and counted ``work`` [s]."""
+    """One answer and its reference: the relative ``deviation`` from it, the ``half_width`` of the answer and its part
+    by the ``cells``, the reference, and what the answer took: processor time and counted ``work`` [s]."""
 
     contact: RollingContact
     deviation: float
@@ -295,7 +299,8 @@ class Judged:
 
     @property
     def is_inside(self) -> bool:
-        """Whether the answer holds the reference, within its half-width and `OF_REFERENCE` standard errors of the reference."""
+        """Whether the answer holds the reference, within its half-width and `OF_REFERENCE` standard errors of the
+        reference."""
         return abs(self.deviation) <= math.hypot(self.half_width, OF_REFERENCE * self.reference.error)
 
     @property
@@ -345,7 +350,8 @@ def summary(answers: Sequence[Judged]) -> PlainRow:
 
 
 def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
-    """Yield the `summary` of each group of answers: of each contact with a name, and of the random ones by load and sliding."""
+    """Yield the `summary` of each group of answers: of each contact with a name, and of the random ones by load and
+    sliding."""
     groups: dict[str, list[Judged]] = {}
     for answer in judged_answers(folder):
         name = answer.contact.name

@@ -1,7 +1,7 @@
 """The table: each random rolling contact followed over the same first steps in time, with several efforts.
 
-One change of the economical effort at a time, then all of them. Every variant starts from the film at rest and meets the
-same roughness at the same times, so that differences are by the effort alone.
+One change of the economical effort at a time, then all of them. Every variant starts from the film at rest and meets
+the same roughness at the same times, so that differences are by the effort alone.
 """
 
 import time

@@ -1,4 +1,5 @@
-"""``python -m verification.campaigns.rolling_work COUNT [--workers N] [--seconds S]``: extend the table, and print the fit."""
+"""``python -m verification.campaigns.rolling_work COUNT [--workers N] [--seconds S]``: extend the table, and print the
+fit."""
 
 from argparse import ArgumentParser
 from pathlib import Path

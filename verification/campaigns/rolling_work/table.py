@@ -1,4 +1,5 @@
-"""The table: the first steps in time of random rolling contacts, on the cells of the deterministic model and on long ones.
+"""The table: the first steps in time of random rolling contacts, on the cells of the deterministic model and on long
+ones.
 
 The contacts are random runs of verification.campaigns.estimates with other numbers.
 """
@@ -34,8 +35,8 @@ from ..extending import solved_in_processes
 
 TABLE = Path(__file__).parent / "table.csv"
 
-# Number of the run of verification.campaigns.estimates that the first contact is: none of its table is as large, and from 10,000 on
-# they are on patches.
+# Number of the run of verification.campaigns.estimates that the first contact is: none of its table is as large, and
+# from 10,000 on they are on patches.
 FIRST = 4_992
 
 # Slide-roll ratios of every second contact on long cells, as of traction curves [-].
@@ -54,8 +55,8 @@ WITHIN = (1.5, 2.0, 3.0)
 # Digits of a number in the table.
 DIGITS = 5
 
-# Cells: those of verification.campaigns.calibration, of whose contacts the number is one; those of the deterministic model and long
-# ones, on which it is a random run.
+# Cells: those of verification.campaigns.calibration, of whose contacts the number is one; those of the deterministic
+# model and long ones, on which it is a random run.
 CELLS = ("case", "long", "strip")
 
 # Numbers of the first contacts of calibration of each kind: usual ones, slight sliding, light ones, thin films.
@@ -154,8 +155,9 @@ class ContactOnCells:
 def extend(
     count: int, seconds: float, workers: int, file: Path = TABLE, cells: Sequence[str] = CELLS
 ) -> Iterator[PlainRow]:
-    """Solve the first ``count`` contacts on each of ``cells`` that the table has not, in so many processes (``workers``), and append
-    each as it ends; those not ready after so many ``seconds`` of elapsed time are left out."""
+    """Solve the first ``count`` contacts on each of ``cells`` that the table has not, in so many processes
+    (``workers``), and append each as it ends; those not ready after so many ``seconds`` of elapsed time are left
+    out."""
     known = {(int(row["number"]), row["cells"]) for row in table_file.rows(file)}
     left = [ContactOnCells(number, one) for number in range(count) for one in cells if (number, one) not in known]
     for row in solved_in_processes(left, seconds, workers):
@@ -164,8 +166,8 @@ def extend(
 
 
 def features_and_logs(file: Path = TABLE) -> tuple[np.ndarray, np.ndarray]:
-    """Return the features (`StepFacts.features`) of the solved contacts, a row each, and ln of the work of their steps over
-    `work_of_step_in_time`."""
+    """Return the features (`StepFacts.features`) of the solved contacts, a row each, and ln of the work of their steps
+    over `work_of_step_in_time`."""
     solved = [row for row in table_file.rows(file) if not row["failure"]]
     features = [StepFacts(**{name: float(row[name]) for name in FACTS}).features for row in solved]
     usual = [work_of_step_in_time(int(row["nx"]) * int(row["ny"])) for row in solved]

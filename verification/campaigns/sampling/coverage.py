@@ -163,7 +163,8 @@ def solve(scene: Scene, speed: float, target: float) -> PlainRow:
 
 
 def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
-    """Return f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard error."""
+    """Return f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard
+    error."""
     case, seed = case_and_seed
     scene = case.scene(seed)
     spacing, factors, along = cells_of(scene)
@@ -180,8 +181,8 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
 
 
 def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]:
-    """Return the scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
-    along x and y, and half the Hertz strip; the correlation length along y [m]."""
+    """Return the scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation
+    length along x and y, and half the Hertz strip; the correlation length along y [m]."""
     spacing = np.broadcast_to(np.asarray(scene.contact.spacing), 2).tolist()
     length = np.broadcast_to(np.asarray(scene.surface.correlation_length), 2).tolist()
     most = min(length[0] / 4, scene.bodies.half_width / 2) / spacing[0], length[1] / 4 / spacing[1]

@@ -42,7 +42,8 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
 
 
 def piece(case: tuple[int, tuple[int, int] | None]) -> PlainRow:
-    """Return a point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
+    """Return a point on one piece of a map (None: all of it), which is written and read again as instrument files
+    are."""
     seed, place = case
     keys: Keywords = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
     complete = lubfric.generate_surface(MAP, 0.45e-6, **keys)
@@ -85,7 +86,8 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def beside(number: int) -> PlainRow:
-    """Return (relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
+    """Return (relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if
+    refused."""
     scene = random_scene(np.random.default_rng((11, number))).with_(
         numerics={"model": "paper", "sampling": "patch", "tolerance": 0.01}
     )

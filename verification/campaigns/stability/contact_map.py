@@ -70,7 +70,8 @@ class Pressed:
 
 @lru_cache(maxsize=64)
 def surface(kind: str, nx: int, ny: int, sigma: float = 0.2e-6) -> np.ndarray:
-    """Return heights [m] of rms ``sigma``: fields of a given spectrum in a box of nx x ny cells of 1 µm, or a simple shape."""
+    """Return heights [m] of rms ``sigma``: fields of a given spectrum in a box of nx x ny cells of 1 µm, or a simple
+    shape."""
     x, y = (np.arange(n) * 1e-6 for n in (nx, ny))
     if kind == "sine":
         z = np.cos(2 * np.pi * np.arange(nx) / nx)[:, None] * np.cos(2 * np.pi * np.arange(ny) / ny)
@@ -91,7 +92,8 @@ def wave_numbers(shape: tuple[int, int]) -> np.ndarray:
 
 
 def full_contact(heights: np.ndarray) -> float:
-    """Return pressure [Pa] that would flatten the heights if it could pull as well. It is the largest tension needed."""
+    """Return pressure [Pa] that would flatten the heights if it could pull as well. It is the largest tension
+    needed."""
     return float(-(fft.ifft2(fft.fft2(heights) * E_PRIME * wave_numbers(heights.shape) / 4).real).min())
 
 

@@ -51,7 +51,8 @@ def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter[str]]:
 
 
 def table(kind: str, cells: list[Check]) -> Table:
-    """Return verdicts of the methods that users get unasked: of every map in which not all is right, and of all together."""
+    """Return verdicts of the methods that users get unasked: of every map in which not all is right, and of all
+    together."""
     rows = [
         (name, sum(result.values()), *(result[v] for v in VERDICTS))
         for (name, _, default), result in counts(cells).items()

@@ -67,7 +67,8 @@ def deviations(cell: Cell[FilmCell], result: EHLResult | float) -> dict[str, flo
 
 @lru_cache(maxsize=64)
 def reference(items: tuple[tuple[str, object], ...], tolerance: float) -> tuple[float, float]:
-    """Return smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there is."""
+    """Return smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there
+    is."""
     ways: tuple[tuple[Callable[..., EHLResult], Keywords], ...] = (
         (solve_differential_deflection, {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
         (solve_ehl, {"tolerance": 0.1 * tolerance}),

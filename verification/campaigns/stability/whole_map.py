@@ -90,8 +90,8 @@ def check(problem: Problem, result: DeterministicResult) -> dict[str, float]:
 
 
 def flow_error(result: DeterministicResult) -> float:
-    """Return largest relative difference of the flow through sections before the first touching cell, as a part of what is
-    allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
+    """Return largest relative difference of the flow through sections before the first touching cell, as a part of what
+    is allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
     speed = result.speed
     dx = result.spacing[0]
     broken = np.flatnonzero(result.touching.any(axis=1))
@@ -112,10 +112,10 @@ def flow_error(result: DeterministicResult) -> float:
 
 
 def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its error: the
-    difference from the mean by Simpson's rule on three points. Where the pressure jumps within one cell, as at the
-    edge of an asperity contact, the law is not close to a parabola between two cells, which do not resolve the film
-    there."""
+    """Return pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its
+    error: the difference from the mean by Simpson's rule on three points. Where the pressure jumps within one cell, as
+    at the edge of an asperity contact, the law is not close to a parabola between two cells, which do not resolve the
+    film there."""
     film = 0.5 * (h[:-1] + h[1:])
     along = h[:-1, :, None] + (h[1:] - h[:-1])[:, :, None] * np.linspace(0.0, 1.0, 801)
     by_step = (p[1:] - p[:-1]) / dx / (12 * np.trapezoid(along**-3, dx=1 / 800, axis=-1))

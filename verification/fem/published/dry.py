@@ -1,4 +1,5 @@
-"""Dry contact compared with Hertz, Westergaard, Johnson, Greenwood and Higginson, and two programs for rough surfaces."""
+"""Dry contact compared with Hertz, Westergaard, Johnson, Greenwood and Higginson, and two programs for rough
+surfaces."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -159,7 +160,8 @@ def waves(seed: int, numbers: tuple[int, int, int], cells: int) -> np.ndarray:
 
 
 def pressed(heights: np.ndarray, load: float) -> tuple[float, float, float, float]:
-    """Return mean gap over Sq, area on the cells, what its edges make it too large, and mean square pressure; E* = 1."""
+    """Return mean gap over Sq, area on the cells, what its edges make it too large, and mean square pressure; E* =
+    1."""
     solution = lubfric.solve_contact(-heights, 2 * math.pi / len(heights), 2.0, mean_pressure=load, tolerance=1e-5)
     on = solution.pressure > 0
     edges = sum(float((on != np.roll(on, 1, axis)).mean()) for axis in (0, 1))

@@ -114,7 +114,8 @@ def force(solution: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearFor
 
 
 def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, float]:
-    """Return torque on a roller over p_h b²/M^1.5, and its relative error. ``inlet``: where it begins, in half-widths."""
+    """Return torque on a roller over p_h b²/M^1.5, and its relative error. ``inlet``: where it begins, in
+    half-widths."""
     flooded = film(m, l, "dowson-higginson", "barus")
     b = flooded.half_width
     solution = film(m, l, "dowson-higginson", "barus", inlet_length=inlet * b) if inlet else flooded
@@ -124,7 +125,8 @@ def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, floa
 
 
 def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
-    """Return torque with an inlet [b] over the flooded one, the gap there over the smallest film, and the relative error."""
+    """Return torque with an inlet [b] over the flooded one, the gap there over the smallest film, and the relative
+    error."""
     full = film(m, l, "dowson-higginson", "barus")
     (flooded, first) = rolling(m, l)
     (part, second) = rolling(m, l, inlet)

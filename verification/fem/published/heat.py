@@ -56,8 +56,8 @@ def nahme(number: float) -> float:
 
 
 def flash(shape: Law, step: float) -> float:
-    """Return largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of half-widths.
-    lubfric uses at most 257 nodes."""
+    """Return largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of
+    half-widths. lubfric uses at most 257 nodes."""
     t = np.arange(-1.0, 1.2, step)
     heat = PEAK * shape(t)
     still = Surroundings(CARRIED, 0.0, np.zeros(t.size), heat)

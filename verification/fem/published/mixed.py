@@ -1,5 +1,5 @@
-"""Mixed lubrication compared with laws of the asperity load ratio, Masjedi and Khonsari, the friction of gears, the weight
-of boundary friction in a bearing, and the paper's own numbers."""
+"""Mixed lubrication compared with laws of the asperity load ratio, Masjedi and Khonsari, the friction of gears, the
+weight of boundary friction in a bearing, and the paper's own numbers."""
 
 import math
 from collections.abc import Iterator
@@ -150,8 +150,9 @@ def bearing() -> Iterator[Item]:
     """The asperity load ratio on the inner race of bearing 32216 at low speeds, compared with SKF's weight of boundary
     friction.
 
-    Geometry, oil, load and Sq are published; the correlation length is not, and the roughness is at rest here. The error
-    is half the difference of two lengths, what a boundary film of half or of twice its thickness changes, and `MOTION`."""
+    Geometry, oil, load and Sq are published; the correlation length is not, and the roughness is at rest here. The
+    error is half the difference of two lengths, what a boundary film of half or of twice its thickness changes, and
+    `MOTION`."""
     data = references.BEARING
     inner = data["pitch"] - data["diameter"] * math.cos(data["angle"])
     radius = 1 / (2 / data["diameter"] + 2 * math.cos(data["angle"]) / inner)
@@ -214,8 +215,8 @@ def gears() -> Iterator[Item]:
 
 
 def mean_friction(rpm: float, oil: tuple[float, float], f_b: float, length: float) -> tuple[float, float]:
-    """Return mean friction of the gear `references.C14`, and the mean of the relative model-form errors along the path. ``oil``:
-    viscosity [Pa s] and pressure-viscosity coefficient [1/Pa]."""
+    """Return mean friction of the gear `references.C14`, and the mean of the relative model-form errors along the path.
+    ``oil``: viscosity [Pa s] and pressure-viscosity coefficient [1/Pa]."""
     gear = references.C14
     turn = rpm * 2 * math.pi / 60
     force = GEAR_TORQUE / gear.base[0]

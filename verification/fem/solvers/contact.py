@@ -174,7 +174,8 @@ def active_set(
 
 
 def limited(problem: ContactProblem, force: FloatArray, saturated: BoolArray) -> BoolArray:
-    """Return ``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
+    """Return ``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough
+    left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
     spare = problem.load - problem.limit[saturated].sum()
@@ -188,7 +189,8 @@ def limited(problem: ContactProblem, force: FloatArray, saturated: BoolArray) ->
 
 
 def enough(problem: ContactProblem, gap: FloatArray, touching: BoolArray, saturated: BoolArray) -> BoolArray:
-    """Return ``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
+    """Return ``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do
+    not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
         return touching

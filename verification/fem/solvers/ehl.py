@@ -272,8 +272,8 @@ def film_estimate(M: float, L: float) -> float:
 
 
 def first_guess(contact: LineContact, body: Body, film: FilmEquations, max_iterations: int) -> Iterate:
-    """Return a first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity is
-    raised in steps.
+    """Return a first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity
+    is raised in steps.
 
     It need not have converged. What counts is whether the solution that starts from it has.
     """

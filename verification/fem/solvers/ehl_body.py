@@ -51,8 +51,8 @@ class Layout:
 
 
 def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
-    """Return triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``, nor
-    than ``hypot(between, growth * distance)`` from the surface between the edges.
+    """Return triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth *
+    distance)``, nor than ``hypot(between, growth * distance)`` from the surface between the edges.
 
     The layout that is returned has the ends of the film moved outwards to vertices.
     """

@@ -138,8 +138,8 @@ def partials(function: Callable[..., np.ndarray], *values: float | FloatArray) -
 
 @lru_cache(maxsize=4)
 def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
-    """Return degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps: once
-    for a line."""
+    """Return degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps:
+    once for a line."""
     mesh = line.mesh
     size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
     slopes_inwards = np.array([[-3.0, -1.0, 4.0], [-1.0, -3.0, 4.0]])  # at either end, times size

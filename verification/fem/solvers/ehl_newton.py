@@ -173,7 +173,8 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
 
 
 def step_length(film: FilmEquations, P: FloatArray, dP: FloatArray, H: FloatArray, dH: FloatArray) -> float:
-    """Return the share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
+    """Return the share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits
+    say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
     most = 1 - SMALLEST_SHARE

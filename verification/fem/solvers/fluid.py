@@ -114,6 +114,7 @@ class Fluid:
 
 
 def slope(law: Callable[[Numbers], np.ndarray], p: Numbers) -> np.ndarray:
-    """Return the derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
+    """Return the derivative of one of the laws by a complex step. It can itself be differentiated only on the real
+    axis."""
     slopes: np.ndarray = np.imag(law(np.asarray(p).real + 1j * STEP)) / STEP
     return slopes

@@ -86,7 +86,8 @@ def press(
     hardness: float = math.inf,
     **options: Option,
 ) -> Contact:
-    """Return `contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
+    """Return `contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in
+    N/m."""
     (nx, ny) = compliance.strip.shape
     (dx, dy) = compliance.strip.spacing
     most = hardness * nx * dx

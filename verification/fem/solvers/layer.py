@@ -83,7 +83,8 @@ class Layer:
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
-    """Return triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <= strip``.
+    """Return triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <=
+    strip``.
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """

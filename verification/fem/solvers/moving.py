@@ -113,7 +113,8 @@ def content(at: EHLSolution, P: FloatArray, H: FloatArray) -> FloatArray:
 def newton_change(
     body: Body, P: FloatArray, held: BoolArray, lost: FloatArray, load: float, by_P: csr_matrix, by_H: csr_matrix
 ) -> tuple[np.ndarray, float]:
-    """Return change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
+    """Return change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to
+    0."""
     free = np.flatnonzero(~held)
     weights = load_weights(body)
     dP = np.where(held, -P, 0.0)

@@ -195,7 +195,8 @@ def residual(v: DiscreteField, w: FormExtraParams) -> FloatArray:
 
 @BilinearForm
 def tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """Return the derivative of `residual`, from the derivatives of (a, b) by p and by each component of its gradient."""
+    """Return the derivative of `residual`, from the derivatives of (a, b) by p and by each component of its
+    gradient."""
     a = w.a_p * u + dot(w.a_g, grad(u))
     b = w.b_p * u + sum(slope * du for slope, du in zip(w.b_g, grad(u), strict=True))
     return a * v + dot(b, grad(v))
@@ -380,7 +381,8 @@ def measure(
 def newton_step(
     problem: ReynoldsProblem, matrix: csc_matrix, r: FloatArray, p: FloatArray, held: BoolArray, cavitated: BoolArray
 ) -> np.ndarray:
-    """Return the step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
+    """Return the step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run
+    away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

@@ -42,8 +42,8 @@ def stored(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[csr_matri
 
 
 def ripple(at: EHLSolution, wavelength: float, speed: float = 0.0) -> np.ndarray:
-    """Return change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
-    dofs of the line. ``speed``: of the waves, over the entrainment speed."""
+    """Return change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at
+    the dofs of the line. ``speed``: of the waves, over the entrainment speed."""
     body = at.body
     contact = at.contact
     k = 2 * np.pi * contact.half_width / wavelength

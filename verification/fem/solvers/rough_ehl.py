@@ -19,8 +19,8 @@ Where a ``floor`` is stated, the bodies touch: complementarity decides at every 
 where p is then the whole pressure and its equation h = floor. The node opens again when more lubricant flows into it
 than out of it. With a floor the rigid gap is interpolated between the nodes, so no gap is below the floor anywhere.
 
-Newton's method solves for all pressures and h0 at once, with the full dense matrix and active sets: nodes with p = 0, and
-nodes with h = floor. Steps in time are implicit, of second order (BDF2; the first is Euler's).
+Newton's method solves for all pressures and h0 at once, with the full dense matrix and active sets: nodes with p = 0,
+and nodes with h = floor. Steps in time are implicit, of second order (BDF2; the first is Euler's).
 """
 
 from __future__ import annotations
@@ -236,8 +236,8 @@ class Balance:
 def balance(
     grid: Discretisation, p: np.ndarray, moved: np.ndarray, shape: np.ndarray, nodal: np.ndarray, step: "Step"
 ) -> Balance:
-    """Return the balance of mass for pressures ``p`` and displacements with the approach ``moved`` at the dofs, over the rigid
-    gaps ``shape`` at the points of quadrature and ``nodal`` at the dofs."""
+    """Return the balance of mass for pressures ``p`` and displacements with the approach ``moved`` at the dofs, over
+    the rigid gaps ``shape`` at the points of quadrature and ``nodal`` at the dofs."""
     basis = grid.basis
     contact = grid.problem.contact
     speed = contact.entrainment_speed
@@ -316,8 +316,8 @@ class ActiveSets:
 
 @dataclass(frozen=True, kw_only=True)
 class NewtonIterate:
-    """An iterate of Newton's method at the degrees of freedom: ``pressure`` [Pa], ``approach`` h0 [m] and ``gap`` [m], the
-    balance of ``mass``, and the ``excess`` of the load, relative."""
+    """An iterate of Newton's method at the degrees of freedom: ``pressure`` [Pa], ``approach`` h0 [m] and ``gap`` [m],
+    the balance of ``mass``, and the ``excess`` of the load, relative."""
 
     pressure: np.ndarray
     approach: float
@@ -348,8 +348,8 @@ def newton(
     touching: np.ndarray | None = None,
     height_share: float = 1.0,
 ) -> SolvedMoment:
-    """Return the solution of a moment, from pressure ``p`` [Pa] and ``approach`` [m] on. ``touching``: the nodes that touch
-    at first; ``height_share``: the heights of the problem count so much.
+    """Return the solution of a moment, from pressure ``p`` [Pa] and ``approach`` [m] on. ``touching``: the nodes that
+    touch at first; ``height_share``: the heights of the problem count so much.
 
     The residuals are the mass lost on the way to the rupture over the inflow, the load, the largest tension over the
     Hertz pressure, and the largest |h - floor| of touching nodes over the film of Moes."""
@@ -459,8 +459,8 @@ def newton_step(grid: Discretisation, at: NewtonIterate, sets: ActiveSets) -> tu
 def step_share(
     grid: Discretisation, p: np.ndarray, change: np.ndarray, gap: np.ndarray, rise: float, touching: np.ndarray
 ) -> float:
-    """Return the part of a step of Newton's method that is taken: no viscosity grows by more than exp(`LARGEST_GROWTH`),
-    and no film of bodies that never touch falls below `SMALLEST_SHARE` of it."""
+    """Return the part of a step of Newton's method that is taken: no viscosity grows by more than
+    exp(`LARGEST_GROWTH`), and no film of bodies that never touch falls below `SMALLEST_SHARE` of it."""
     fluid = grid.problem.contact.fluid
     wet = ~touching
     growth = np.abs(fluid.log_viscosity(np.maximum(p + change, 0)) - fluid.log_viscosity(np.maximum(p, 0)))
@@ -494,8 +494,8 @@ def film_of(grid: Discretisation, moment: SolvedMoment) -> RoughStripFilm:
 def solve_rough(
     grid: Discretisation, start: RoughStripFilm | None = None, *, time: float = 0.0, tolerance: float = 1e-7
 ) -> RoughStripFilm:
-    """Return the film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps, from
-    the smooth film of `ehl` on."""
+    """Return the film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps,
+    from the smooth film of `ehl` on."""
     problem = grid.problem
     contact = problem.contact
     if start is not None:

@@ -48,8 +48,8 @@ class Law:
 
 @dataclass(frozen=True, kw_only=True)
 class ThinnedFilm(FilmEquations):
-    """A `FilmEquations` of a fluid with a ``law``; stress_per_film [Pa]: the Newtonian stress of sliding at the film b^2/R and
-    eta = eta0; pull [Pa]: h dp/dx/2 at that film and dP/dX = 1."""
+    """A `FilmEquations` of a fluid with a ``law``; stress_per_film [Pa]: the Newtonian stress of sliding at the film
+    b^2/R and eta = eta0; pull [Pa]: h dp/dx/2 at that film and dP/dX = 1."""
 
     law: Law = Law(math.inf)
     stress_per_film: float = 0.0
@@ -85,8 +85,8 @@ class ThinnedFilm(FilmEquations):
 def solve_thinned(
     contact: LineContact, law: Law, sliding: float, *, refinements: int = 1
 ) -> tuple[EHLSolution, EHLSolution]:
-    """Return the Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces that
-    slide at ``sliding`` [m/s]."""
+    """Return the Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces
+    that slide at ``sliding`` [m/s]."""
     newtonian = solve_ehl(contact, refinements=refinements)[-1]
     body = newtonian.body
     plain = newtonian.film

@@ -4,9 +4,9 @@ not.
     s d(rho H)/dX - d/dX( m dP/dX ) + d(rho H)/dT = 0,   s = U(T)/U0,   T = U0 t/b,   integral of P = F_H(T)
 
 in the Hertz variables of the load at time 0 at a speed U0 (`ehl`). The rough strip is pressed with F_T(T) - F_H under
-the shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the
-mean film over the Hertz strip of the load at time 0, balanced in every step by `sharing.root`. Steps in time are BDF2, the
-first one Euler's.
+the shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is
+the mean film over the Hertz strip of the load at time 0, balanced in every step by `sharing.root`. Steps in time are
+BDF2, the first one Euler's.
 """
 
 from collections.abc import Callable, Iterator
@@ -59,9 +59,9 @@ def share_in_time(
 ) -> Iterator[SharedMoment]:
     """The division of the load at moments ``step`` [s] apart, without end, from the steady one at time 0 on.
 
-    ``speed`` [m/s] of a time [s] is the entrainment speed, positive; that of ``bodies.contact`` is U0, the speed at time
-    0. ``load`` [N] of a time is F_T, that of ``bodies`` at time 0 (None: always). ``tolerance``: on the balance of the
-    volumes. Raises `SolveError` where a step is not solved.
+    ``speed`` [m/s] of a time [s] is the entrainment speed, positive; that of ``bodies.contact`` is U0, the speed at
+    time 0. ``load`` [N] of a time is F_T, that of ``bodies`` at time 0 (None: always). ``tolerance``: on the balance of
+    the volumes. Raises `SolveError` where a step is not solved.
     """
     contact = bodies.contact
     require(step > 0, f"step = {step} s", "> 0")
@@ -106,8 +106,8 @@ def share_in_time(
 
 @dataclass(frozen=True, kw_only=True)
 class Moving:
-    """A step in time of the film in the variables ``at`` the load of time 0: its mass ``now`` and ``before``, the rates of
-    BDF2 or Euler (0: a steady film), its length [b/U0], the speed over U0, and F_T [N] at its end."""
+    """A step in time of the film in the variables ``at`` the load of time 0: its mass ``now`` and ``before``, the rates
+    of BDF2 or Euler (0: a steady film), its length [b/U0], the speed over U0, and F_T [N] at its end."""
 
     at: ehl.EHLSolution
     now: np.ndarray | float

@@ -99,7 +99,8 @@ def centred(count: int, step: float) -> np.ndarray:
 
 
 def cylinder(cells: int, place: float) -> tuple[float, ...]:
-    """Return errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells long."""
+    """Return errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells
+    long."""
     exact = Line(E_PRIME, RADIUS, SIZE)
     x, c = pressed_cylinder(exact, cells + place)
     dx = x[1] - x[0]

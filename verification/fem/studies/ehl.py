@@ -90,8 +90,8 @@ class Pair:
         return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
 
     def differences(self, s: EHLSolution) -> tuple[float, float, float]:
-        """Return relative differences of flow film and smallest film, and the root mean square of that of the film over the
-        contact, in flow films.
+        """Return relative differences of flow film and smallest film, and the root mean square of that of the film over
+        the contact, in flow films.
 
         The contact reaches here to 1.2 times the place where the film is expected to rupture.
         """

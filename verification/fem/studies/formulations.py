@@ -61,7 +61,8 @@ class FormulationCase:
 
 
 def body(shape: str, x: np.ndarray, b: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return undeformed shape [m], the area A (1 inside) and the mean pressure [Pa] with contact half-width or radius b."""
+    """Return undeformed shape [m], the area A (1 inside) and the mean pressure [Pa] with contact half-width or radius
+    b."""
     if shape == "flat":
         return np.zeros((x.size, x.size)), np.ones((x.size, x.size)), 300e6
     if shape == "cylinder":

@@ -150,7 +150,8 @@ def compared(case: GivenFluidCase, problem: Problem, solution: DeterministicResu
 
 
 def contact_by_elements(problem: Problem, solution: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
-    """Return the contact under what the fluid leaves of the load; and its load at the mean gap of ``solution``, over that."""
+    """Return the contact under what the fluid leaves of the load; and its load at the mean gap of ``solution``, over
+    that."""
     fluid = np.where(solution.touching, 0.0, solution.pressure)
     left = problem.load - solution.inlet_load - fluid.sum() * problem.spacing[0] / fluid.shape[1]
     gap0 = problem.rigid_gap + np.where(solution.touching, 0.0, solution.dent) + body.apply(fluid) - problem.floor

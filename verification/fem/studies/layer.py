@@ -201,7 +201,8 @@ def approach(level: str) -> Iterator[Item]:
 
 
 def bending(result: Layer) -> float:
-    """Return curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J (b/d)^2.
+    """Return curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J
+    (b/d)^2.
 
     The pressure is ``p0 (1 - X^2)^1.5`` with X = x/b. A half-space sinks under it by ``(p0 b/E')(X^4 - 3 X^2)`` and a
     constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.

@@ -169,7 +169,8 @@ def averaged(model: Prepared) -> Prepared:
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """Return the operator with displacements that are means over each cell along x, under pressures uniform in each cell.
+    """Return the operator with displacements that are means over each cell along x, under pressures uniform in each
+    cell.
 
     A line load that varies as exp(i k y) deflects a half-space by (4/(pi E')) K0(k |x|), and by -(4/(pi E')) ln|x|
     where k = 0. Integrated over one cell and averaged over another, that is a second difference of its second

@@ -43,8 +43,8 @@ GRIDS = {"quick": ((64, 8), (96, 12)), "default": ((64, 8), (96, 12)), "full": (
 # cells of lubfric in a half-width: at rest (a fraction of a second), and moving
 CELLS = {"quick": (32, 64), "default": (32, 64), "full": (48, 96)}
 MOVING_CELLS = {"default": (24, 36), "full": (32, 48)}
-# Three grids of each program for the mesh study of the first load, at rest and moving. With multiples of three cells the
-# film passes one cell in a step, so that the mass is followed along the lubricant, by steps of third order.
+# Three grids of each program for the mesh study of the first load, at rest and moving. With multiples of three cells
+# the film passes one cell in a step, so that the mass is followed along the lubricant, by steps of third order.
 MOVING_STUDY_CELLS = (24, 36, 48)
 STUDY_GRIDS = ((64, 8), (96, 12), (128, 16))
 STUDY_CELLS = (32, 64, 128)
@@ -91,8 +91,8 @@ class StripCase:
 
 @dataclass(frozen=True, kw_only=True)
 class Fields:
-    """A film at a moment, wherever it was solved: x, y [m] over half of the period, pressure [Pa] and gap [m] there, and
-    the flow [m²/s] per width that enters, NaN if it was not summed."""
+    """A film at a moment, wherever it was solved: x, y [m] over half of the period, pressure [Pa] and gap [m] there,
+    and the flow [m²/s] per width that enters, NaN if it was not summed."""
 
     x: np.ndarray
     y: np.ndarray
@@ -107,8 +107,8 @@ def rough_strip(level: str) -> Iterator[Item]:
     Two loads, roughness of two waves each way (Sq 50 nm) at rest, then moving at 0.75 U (slide-roll ratio 0.5), where
     the gap and pressure of eight moments of a period are compared. Each program is solved on two grids, and the check
     takes the finer of both; the table has all. The first load at rest is solved on three, with the order of the flow of
-    each program, and both flows extrapolated to no cells. So is it moving, with the order of the smallest gap by lubfric
-    and of the flow by elements: the flow by the pressure is of second order in both, which decides.
+    each program, and both flows extrapolated to no cells. So is it moving, with the order of the smallest gap by
+    lubfric and of the flow by elements: the flow by the pressure is of second order in both, which decides.
     """
     rows: list[TableRow] = []
     bodies: dict[tuple[int, int], Discretisation] = {}
@@ -212,8 +212,8 @@ def both_programs(
     moving: bool,
     bodies: dict[tuple[int, int], Discretisation],
 ) -> tuple[list[list[Fields]], list[list[Fields]]]:
-    """Return the films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each of the
-    ``grids``. ``bodies`` keeps the elastic body of each grid."""
+    """Return the films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each
+    of the ``grids``. ``bodies`` keeps the elastic body of each grid."""
     ours = [own_films(case, count, moving=moving) for count in cells]
     elements = []
     for grid in grids:
@@ -240,7 +240,8 @@ def rows_of(
 
 
 def surface_of(b: float, pace: float = 0.0, sq: float = SQ) -> Heights:
-    """Return z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace`` [m/s]."""
+    """Return z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace``
+    [m/s]."""
     rng = np.random.default_rng(SEED)
     along = PERIODS[0] * b
     across = PERIODS[1] * b
@@ -354,9 +355,9 @@ def middle_of(case: StripCase, film: Fields) -> tuple[np.ndarray, np.ndarray]:
 
 
 def averages(case: StripCase, films: list[Fields]) -> dict[str, float]:
-    """Return mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over the
-    moments. Of bodies that touch, the share of the load on gaps up to `THIN` floors stands for the smallest gap, which
-    is the floor."""
+    """Return mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over
+    the moments. Of bodies that touch, the share of the load on gaps up to `THIN` floors stands for the smallest gap,
+    which is the floor."""
     contact = case.contact
     width = 2 * NEAR * contact.half_width
     gaps = []

@@ -74,7 +74,8 @@ class RampCase:
 
 
 def sharing_in_time(level: str) -> Iterator[Item]:
-    """Contact load and mean gap over time while the speed falls to half, or the load to 0.8, within three half-widths of travel.
+    """Contact load and mean gap over time while the speed falls to half, or the load to 0.8, within three half-widths
+    of travel.
 
     The film of the moment is thicker than the steady one at its speed, because it was made when the speed was higher.
     When the load falls, the bodies part and the film has to fill the gap. Both programs start from their own steady

@@ -46,8 +46,8 @@ ALLOWED = {"smallest film": 0.01, "film at x = 0": 0.01, "flow film": 0.01}
 def starved(level: str) -> Iterator[Item]:
     """Smallest film, film in the middle and flow of a starved inlet, by `lubfric.solve_ehl` and by finite elements.
 
-    Where the lubricant begins is stated (``inlet_length``), or follows from the layer that arrives (``inlet_film``): the
-    elements look for the place at which the flow is that of the layer, by a root finder of their own.
+    Where the lubricant begins is stated (``inlet_length``), or follows from the layer that arrives (``inlet_film``):
+    the elements look for the place at which the flow is that of the layer, by a root finder of their own.
     """
     rows: list[TableRow] = []
     grids = GRIDS[level]
@@ -78,8 +78,8 @@ def half_width() -> float:
 def film_from(
     place: float, cells: int, bodies: dict[int, Discretisation], start: RoughStripFilm | None = None
 ) -> RoughStripFilm:
-    """Return the film by finite elements, with the lubricant from ``place`` [half-widths] upstream on; ``start``: one with
-    another inlet."""
+    """Return the film by finite elements, with the lubricant from ``place`` [half-widths] upstream on; ``start``: one
+    with another inlet."""
     contact = LineContact.of(CASE | OIL)
     b = contact.half_width
     step = (place + OUTLET) * b / (cells - 1)

@@ -119,8 +119,9 @@ def waviness(level: str) -> Iterator[Item]:
 def compared(
     case: WavinessCase, speed: float, length: float, reference_case: WavinessCase | None = None
 ) -> tuple[float, float, float, float, float]:
-    """Return the part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
-    pure rolling, where they are one), and the rms difference of the films. ``reference_case``: what the elements solve."""
+    """Return the part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0
+    in pure rolling, where they are one), and the rms difference of the films. ``reference_case``: what the elements
+    solve."""
     smooth = laid_out(case.line, speed, CELLS * (max(1.0, speed) if speed else 2.5) / length)
     b = smooth.half_width
     x = smooth.film.x
