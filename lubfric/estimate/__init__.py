@@ -18,7 +18,7 @@ from .friction import friction, most_work_of_estimate
 from .full_load import full_load_numbers
 from .inputs_to_quote import inputs_to_quote
 from .methods import MethodUse, methods_of
-from .power import power_of_forces
+from .power import power_of_forces, rolling_resistance_error
 from .ranges import with_input_ranges
 from .result import FrictionResult, cite_together, cited, shared_inputs
 from .solve_to_tolerance import solve_to_tolerance

@@ -24,6 +24,12 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
     return force * sliding + resistance * (entrainment - 0.5 * sliding)
 
 
+def rolling_resistance_error(error: float, model_error: float) -> float:
+    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and its ``model_error`` at 95 %
+    (`lubfric.models.Model.rolling_error`)."""
+    return math.hypot(2.0 * error, model_error)
+
+
 @dataclass(frozen=True, kw_only=True)
 class PowerLoss:
     """The power loss of a point [W], its 95 % ``interval`` [W] and its relative ``error``."""
@@ -69,7 +75,7 @@ def power_loss_of(
     for end in interval:
         by_sliding = (end - coefficient) * load * abs(sliding)
         of_rolling = (
-            math.hypot(2.0 * resistance_error, resistance_model_error)
+            rolling_resistance_error(resistance_error, resistance_model_error)
             if has_known_errors
             else abs(end / coefficient - 1.0)
         )

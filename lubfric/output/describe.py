@@ -14,6 +14,7 @@ from ..estimate import (
     WorkOfPoints,
     estimated_work_of_point,
     expected_violations,
+    rolling_resistance_error,
     seconds_of_points,
 )
 from ..models import (
@@ -37,6 +38,7 @@ from ..models.shared import (
     gathered,
     inlet_at,
     percent,
+    rolling_model_error,
     student,
     violations_by_form,
     violations_by_inlet_of_moment,
@@ -101,6 +103,9 @@ SPEED_ROUNDING = 1e-9
 STANDSTILL_PART = 1e-8
 # Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01
+# Part of the power loss from which the error of the rolling resistance in it is stated. A choice: a smaller part changes the loss by less
+# than 3 % at the largest error.
+LARGE_ROLLING_PART = 0.2
 # Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the
 # usual limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
 FULL_FILM_LAMBDA = 3.0
@@ -140,14 +145,15 @@ class SceneEstimate:
 
 def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
     """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling
-    resistance, as text to be appended; "" for a small part."""
+    resistance, and of a large part its error at 95 %, as text to be appended; "" for a small part."""
     sliding = abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
     rolling = point.power_loss - sliding
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         return ""
-    return (
-        f", of which {as_beside(rolling, point.power_loss, *point.power_loss_interval, unit='W')} is rolling resistance"
-    )
+    part = as_beside(rolling, point.power_loss, *point.power_loss_interval, unit="W")
+    error = rolling_resistance_error(point.errors.rolling_resistance, rolling_model_error(point.lambda_ratio))
+    is_stated = rolling > LARGE_ROLLING_PART * abs(point.power_loss) and math.isfinite(error)
+    return f", of which {part} is rolling resistance{f' (± {percent(error)})' if is_stated else ''}"
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:

@@ -484,8 +484,10 @@ def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path):
     load = float(row["contact_load [N]"]) + float(row["film_load [N]"])
     rolling = float(row["power_loss [W]"]) - float(row["coefficient [-]"]) * load * 0.02 * 0.5
     page = (tmp_path / "out" / "report.html").read_text()
-    stated = re.search(r"of which ([\d.]+) mW is rolling resistance", page)
+    stated = re.search(r"of which ([\d.]+) mW is rolling resistance \(± ([\d.]+) %\)", page)
     assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=5e-3) and rolling > 0
+    half_width = float(row["power_loss_high [W]"]) - float(row["power_loss [W]"])
+    assert 1 < float(stated[2]) and float(stated[2]) / 100 * rolling <= half_width * (1 + 0.05)
 
 
 def test_the_film_before_the_solve_is_the_full_load_film_of_the_result():
