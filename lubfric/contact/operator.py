@@ -118,6 +118,14 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return apply
 
     @cached_property
+    def self_deflection(self) -> float:
+        """Deflection [m/Pa] of a cell in the middle of the first axis by its own pressure."""
+        unit = np.zeros(self.shape)
+        middle = self.shape[0] // 2
+        unit[middle, 0] = 1.0
+        return float(self.apply(unit)[middle, 0])
+
+    @cached_property
     def _kernel(self) -> np.ndarray:
         """Coefficients along the free axis x of every wave along y [m/Pa], lags (nx) first."""
         return fft.irfft(self.symbol, n=self.padded[0], axis=0)[: self.shape[0]]

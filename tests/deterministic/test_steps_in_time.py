@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import lubfric
+from lubfric.contact import HalfSpace
 from lubfric.models.deterministic import (
     ECONOMICAL,
     TIGHT,
@@ -103,20 +104,28 @@ def test_a_step_begins_with_the_load_and_the_mean_gap_of_the_moment_before(monke
     assert begun[0].gap[is_pressed].mean() == pytest.approx(moved[is_pressed].mean(), rel=1e-9)
 
 
-def test_a_step_balances_the_mass_once_before_its_newton_steps_and_once_after_each(monkeypatch):
-    """Where no Newton step is halved. Its start needs the gap alone, which takes no mass balance."""
+def test_a_step_takes_no_mass_balance_or_product_with_k_that_its_newton_steps_do_not_need(monkeypatch):
+    """Where no Newton step is halved. Its start needs the gap alone, which takes no mass balance. The products with K are those of
+    the start, of its gap, of each iteration of GMRES, and of each change and new state."""
     surface = lubfric.generate_surface((48, 24), 2e-6, sq=50e-9, correlation_length=8e-6, acf="gaussian", seed=1)
     line = lubfric.load_scene("paper").line_contact(0.3)
     problem = lay_out(surface, line, sliding=0.03, boundary_friction=0.1)
     counted = []
+    apply = HalfSpace.apply
 
     def noted(*given, **how):
-        counted.append(1)
+        counted.append("balance")
         return mass_balance(*given, **how)
 
+    def noted_product(*given):
+        counted.append("product")
+        return apply(*given)
+
     monkeypatch.setattr(state, "mass_balance", noted)
+    monkeypatch.setattr(HalfSpace, "apply", noted_product)
     passing = moments(travelling(problem, [RoughBody(surface, 0.3)]), problem.spacing[0] / 0.3, shift=1.0)
     next(passing)
     counted.clear()
     moment = next(passing)
-    assert len(counted) == 1 + moment.work.factorisations
+    assert counted.count("balance") == 1 + moment.work.factorisations
+    assert counted.count("product") == 2 + 2 * moment.work.factorisations + moment.work.krylov

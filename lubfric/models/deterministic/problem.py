@@ -121,13 +121,10 @@ class Problem(HasLineContact):
         """x²/(2R) - z [m] (nx, ny)."""
         return (self.x**2 / (2 * self.radius))[:, None] - self.heights
 
-    @cached_property
+    @property
     def self_deflection(self) -> float:
         """Deflection of a cell by its own pressure [m/Pa]: the diagonal of K."""
-        unit = np.zeros(self.heights.shape)
-        middle = self.x.size // 2
-        unit[middle, 0] = 1.0
-        return float(self.operator.apply(unit)[middle, 0])
+        return self.operator.self_deflection
 
     @property
     def edge_log(self) -> float:
