@@ -2,7 +2,7 @@
 
 Those of flooded and starved contacts follow from the number of columns of cells along x. Their constants are fitted to 286 solves of
 random patches of ``verification.campaigns.estimates``, on 2 to 6 lengths of cells each. Of 86 random strips of Hertz pressures up to
-1.5 GPa, with Hertz half-widths of 1 to 40 correlation lengths, 95 % take them within a factor of 2, once and on cells twice as long;
+1.5 GPa, with Hertz half-widths of 1 to 40 correlation lengths, 94 % take them within a factor of 2, and 87 % on cells twice as long;
 those of 64 rows above 1 GPa take 55 and 122 steps where one place resists. The constants of starved and soft strips are fitted to 34
 with .15 to 1 of the film that would flow in, and 40 of E' 0.2 to 20 GPa and up to 60 MPa. Those without a solution count as 300 steps.
 """
