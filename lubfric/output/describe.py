@@ -227,11 +227,7 @@ def estimate_scene(
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved and not len(ratios):
         beside += work.at(min(speeds, key=lambda speed: abs(speed - scene_speed))).fine_fields_seconds
-    within = WITHIN_WORDS
-    for time in (measured or {}).values():
-        within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
-    if not measured and not len(ratios) and _slow_points(work, speeds):
-        within = f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
+    within = _how_well_known(work, speeds, ratios, measured or {})
     more = f"{in_words(beside)} for start, pictures and files of 'lubfric run'"
     cost = f"about {in_words(seconds)} of processor time for {over} ({within}), and {more}" if seconds else ""
     run = None
@@ -242,47 +238,19 @@ def estimate_scene(
         changing = [cost, *_histories(scene), *lines]
     elif cost:
         model.append(f"cost: {cost}")
-    at = [
-        *((None, violation) for violation in beforehand(scene, sample, surface)),
-        *(
-            (None, violation)
-            for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
-        ),
-        *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
-        *_expected_of_models(work, sorted(set(speeds))),
-    ]
-    if scene.transient is not None:
-        fastest = _fastest_moment(scene)
-        top = fastest.motion.entrainment_speed
-        at += [(top, violation) for violation in violations_by_inlet_of_moment(fastest, top)]
+    at = _violations_before(work, speeds)
     may_refuse = {Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD}
     if scene.transient is not None and not run_model_of(scene).continues_patch:
         may_refuse.add(Assumption.LONG_PATCH)
     refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption in may_refuse])
     scene_map = sample.whole_map
-    effects: tuple[ExpectedEffect, ...] = ()
-    over_time: tuple[EffectOverTime, ...] = ()
-    if scene.transient is not None:
-        over_time = expected_effects_of_run(scene, scene_map.sq, _chosen_times(scene))
-        place = "over the run, each at the moment at which it is largest"
-        rows = [f"at {each.moment_in_words}: {effect_in_words(each.effect)}" for each in over_time]
-    else:
-        effects = expected_effects(scene, scene_map.sq, scene_speed, includes_motion=may_move_roughness(scene))
-        place = f"at {scene_speed:.4g} m/s"
-        of_alpha = expected_alpha_at(scene, scene_speed, effects)
-        rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.is_of_alpha)]
-        rows = [*filter(None, [of_alpha]), *rows]
-    changes = [
-        f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
-        "ratios that the result may have; the report states the changes for the solved ratio.",
-        *rows,
-    ]
+    effects, over_time, changes = _effects_before(scene, scene_map.sq, scene_speed)
     sections = {
         "transient": changing,
         "surface": [*sample.described(surface), *scene_map.used_parts, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
-        "effects not modelled": changes if rows else ["each known effect changes f by less than numerics.tolerance"],
+        "effects not modelled": changes or ["each known effect changes f by less than numerics.tolerance"],
         "validity": _doubts(at) or ["no limit of the model is exceeded before the solve"],
     }
     return SceneEstimate(
@@ -297,6 +265,67 @@ def estimate_scene(
         effects_over_time=over_time,
         run=run,
     )
+
+
+def _how_well_known(
+    work: WorkOfPoints, speeds: list[float], ratios: Sequence[float], measured: Mapping[str, MeasuredTime]
+) -> str:
+    """Return how well the processor time is known, as text; arguments as of `estimate_scene`."""
+    if not measured and not len(ratios) and _slow_points(work, speeds):
+        return f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
+    within = WITHIN_WORDS
+    for time in measured.values():
+        within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
+    return within
+
+
+def _violations_before(work: WorkOfPoints, speeds: list[float]) -> list[tuple[float | None, Violation]]:
+    """Return the assumptions that fail by what is known before the solve, each with its speed [m/s], or None where it
+    does not depend on the speed."""
+    scene = work.scene
+    sample = work.sample
+    surface = work.surface
+    at = [
+        *((None, violation) for violation in beforehand(scene, sample, surface)),
+        *(
+            (None, violation)
+            for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
+        ),
+        *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
+        *_expected_of_models(work, sorted(set(speeds))),
+    ]
+    if scene.transient is not None:
+        fastest = _fastest_moment(scene)
+        top = fastest.motion.entrainment_speed
+        at += [(top, violation) for violation in violations_by_inlet_of_moment(fastest, top)]
+    return at
+
+
+def _effects_before(
+    scene: Scene, sq: float, speed: float
+) -> tuple[tuple[ExpectedEffect, ...], tuple[EffectOverTime, ...], list[str]]:
+    """Return the effects that are not modelled at ``speed`` [m/s], or over a run in time, and both as lines of text;
+    none where they change nothing. ``sq`` [m]: of the whole surface."""
+    effects: tuple[ExpectedEffect, ...] = ()
+    over_time: tuple[EffectOverTime, ...] = ()
+    if scene.transient is not None:
+        over_time = expected_effects_of_run(scene, sq, _chosen_times(scene))
+        place = "over the run, each at the moment at which it is largest"
+        rows = [f"at {each.moment_in_words}: {effect_in_words(each.effect)}" for each in over_time]
+    else:
+        effects = expected_effects(scene, sq, speed, includes_motion=may_move_roughness(scene))
+        place = f"at {speed:.4g} m/s"
+        of_alpha = expected_alpha_at(scene, speed, effects)
+        rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.is_of_alpha)]
+        rows = [*filter(None, [of_alpha]), *rows]
+    if not rows:
+        return effects, over_time, []
+    changes = [
+        f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
+        "ratios that the result may have; the report states the changes for the solved ratio.",
+        *rows,
+    ]
+    return effects, over_time, changes
 
 
 def _speeds_of(scene: Scene, surface: Surface, speeds: Sequence[float] | str) -> list[float]:
