@@ -30,7 +30,7 @@ from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
 
-# How well times are estimated: 94 % of 291 runs of verification.campaigns.estimates are within that; most of the
+# How well times are estimated: 93 % of 291 runs of verification.campaigns.estimates are within that; most of the
 # constants were chosen with these in sight. Measured.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 
