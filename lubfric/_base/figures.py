@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Container, Iterable, Sequence
+from copy import copy
 from functools import wraps
 from importlib.resources import as_file, files
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 
+from ..errors import InputError
 from ..quantities import axis_label
 from ..units import converted, printed, unit_for
 from .arrays import FloatArray
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
+    from matplotlib.lines import Line2D
     from matplotlib.text import Text
     from matplotlib.transforms import Bbox
 
@@ -32,9 +35,15 @@ BLUE = "#1f5a94"
 RED = "#b3392f"
 GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
+# Colours of curves on the same axes, in turn: neither that of asperity nor that of fluid friction. A choice.
+CURVE_COLOURS = (BLUE, "#d07a1f", "#7a4a9c", "#14898c", "#8a8a1c", "#c2418f")
 FRICTION_LABEL = axis_label("coefficient")
 
+# What of a line a user may choose, by the words of matplotlib.
+LINE_STYLE = ("color", "c", "linestyle", "ls", "linewidth", "lw", "marker", "markersize", "ms", "alpha", "zorder")
+
 # Names of the lines of a curve in its key.
+FRICTION_COEFFICIENT = "friction coefficient"
 ASPERITY_FRICTION = "asperity friction"
 FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
@@ -43,8 +52,8 @@ NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longe
 
 # Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
-KEY_ROOM = 0.92  # of the width of axes before the layout, which leaves less to them: of the key above them
-NARROW_KEY = {"handlelength": 2.4, "handletextpad": 0.5, "columnspacing": 1.0}  # letters: lengths in a narrow figure
+KEY_ROOM = 0.98  # of the width of axes before the layout, which leaves less to them: of the key above them
+NARROW_KEY = {"handlelength": 2.0, "handletextpad": 0.5, "columnspacing": 1.0}  # letters: lengths in a narrow figure
 KEY_LINE = 3.0  # letters: length of the lines in a key, such that dashes and dots differ
 FIT_ROUNDS = 2  # times that labels are broken: breaking one changes the room of others
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
@@ -52,6 +61,9 @@ GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be s
 CORRELATION_ROUNDING = 1e-9  # of a correlation coefficient
 EQUAL_STEPS = 0.05  # range of steps that are equal, over their mean
 PART_WIDTH = 2.0  # pt: of the dashed line of a part of f, wider than that of f, which it may cover
+NARROW_PART_WIDTH = 1.2  # pt: the same in a narrow figure
+ASPERITY_DASHES = (0, (2.5, 2))  # of the part of f from the asperities, in widths of the line; f shows through
+FLUID_DASHES = (0, (4, 1.5, 1, 1.5))  # of that from the film, which differs without colours
 NARROW_FIGURE = 4.5  # inch: a figure up to this width has small letters in its keys
 SMALL_KEY_SIZE = 6.0  # pt: of these letters
 WIDE_MAP = 0.6  # height over width of a map below which the label of its short side has one word
@@ -139,18 +151,31 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
     return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
+def check_style(style: Iterable[str], own: Sequence[str]) -> None:
+    """Raise `InputError` for a keyword in the ``style`` of a line that no line has; ``own``: the other keywords of the
+    caller."""
+    unknown = [name for name in style if name not in (*LINE_STYLE, *own)]
+    if unknown:
+        allowed = f"{', '.join(own)}; of the line: {', '.join(LINE_STYLE)}"
+        raise InputError(f"plot has no keyword {unknown[0]!r}", allowed=allowed)
+
+
 def friction_lines(
     axes: Axes, x: FloatArray, parts: Sequence[FloatArray], *, without: Container[str] = (), **style: Any
-) -> None:
-    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``without``:
-    the names of those that are omitted; ``style``: of the first."""
+) -> list[Line2D]:
+    """Draw f, and its parts from the asperities and from the film, over ``x``, and return the lines. ``parts``: three
+    arrays; ``without``: the names of those that are omitted; ``style``: of the first."""
     f, contact, film = parts
-    axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
-    for part, color, label in ((contact, RED, ASPERITY_FRICTION), (film, GREEN, FLUID_FRICTION)):
+    lines = axes.plot(x, f, **{"color": BLUE, "label": FRICTION_COEFFICIENT} | style)
+    for part, color, dashes, label in (
+        (contact, RED, ASPERITY_DASHES, ASPERITY_FRICTION),
+        (film, GREEN, FLUID_DASHES, FLUID_FRICTION),
+    ):
         if label in without:
             continue
         lone: dict[str, Any] = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
-        axes.plot(x, part, color=color, lw=PART_WIDTH, ls=(0, (2.5, 2)), label=label, **lone)  # f shows through
+        lines += axes.plot(x, part, color=color, lw=PART_WIDTH, ls=dashes, label=label, **lone)
+    return lines
 
 
 def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:
@@ -215,10 +240,10 @@ def speed_label(speed: np.ndarray) -> str:
 
 def key_above(axes: Axes, columns: int = 3) -> int:
     """Put the key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has
-    room for; returns the number of its lines of text."""
+    room for, with each label once; returns the number of its lines of text."""
     from matplotlib import rcParams
 
-    handles, labels = axes.get_legend_handles_labels()
+    handles, labels = _key_entries(axes)
     size = min(rcParams["legend.fontsize"], KEY_SIZE) if not isinstance(rcParams["legend.fontsize"], str) else KEY_SIZE
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -238,6 +263,27 @@ def key_above(axes: Axes, columns: int = 3) -> int:
     return per_column + max((label.count("\n") for label in labels), default=0)
 
 
+def _key_entries(axes: Axes) -> tuple[list[Any], list[str]]:
+    """Return the samples and the labels of the key of ``axes``: each label once, with a grey sample and behind the others
+    where several lines have it."""
+    by_label: dict[str, list[Any]] = {}
+    for handle, label in zip(*axes.get_legend_handles_labels()):
+        by_label.setdefault(label, []).append(handle)
+    labels = sorted(by_label, key=lambda label: len(by_label[label]) > 1)
+    return [
+        by_label[label][0] if len(by_label[label]) == 1 else _in_grey(by_label[label][0]) for label in labels
+    ], labels
+
+
+def _in_grey(handle: Any) -> Any:
+    """Return a copy of a ``handle`` of a key in grey; one of several parts unchanged."""
+    if not hasattr(handle, "set_color"):
+        return handle
+    sample = copy(handle)
+    sample.set_color(GREY)
+    return sample
+
+
 def _excess(legend: Any, axes: Axes) -> float:
     """Return the width of a ``legend`` over the room above its ``axes``, before the figure is laid out."""
     figure = axes.get_figure(root=True)
@@ -245,13 +291,13 @@ def _excess(legend: Any, axes: Axes) -> float:
     return float(legend.get_window_extent().width / (KEY_ROOM * axes.get_position().width * figure.bbox.width))
 
 
-def fit_labels(figure: Figure) -> None:
-    """Break the labels of the axes of ``figure`` into lines that are no longer than the axes that they belong to, or
-    than there is room about these where nothing else is beside them."""
+def fit_labels(figure: Figure, of: Sequence[Axes] | None = None) -> None:
+    """Break the labels of the axes of ``figure``, or ``of`` some of them, into lines that are no longer than the axes
+    that they belong to, or than there is room about these where nothing else is beside them."""
     for _ in range(FIT_ROUNDS):
         figure.draw_without_rendering()
         whole = figure.bbox
-        for axes in figure.axes:
+        for axes in figure.axes if of is None else of:
             box = axes.get_window_extent()
             is_lone = not any(_are_side_by_side(axes, other) for other in figure.axes if other is not axes)
             middle = 0.5 * (box.x0 + box.x1)

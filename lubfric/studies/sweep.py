@@ -21,11 +21,12 @@ from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene, check_ratios
 from .choose import alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, points_of_interpolation, report_of
+from .curve_axes import curve_axes
 from .interpolate import FEWEST_SPEEDS, Interpolant, Minimum, through
 from .law import MORE_SPEEDS, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, solved
 from .store import opened
-from .tables import DRAWN_ERROR, curve_axes
+from .tables import DRAWN_ERROR
 from .traction_gaps import Gap, gaps_of
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,6 @@ from ..quantities import COLUMNS, KEYS, Quantity, axis_label, described, heading
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
 from .choose import between
-from .curve import columns_of_curve
 from .interpolate import through
 from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
@@ -25,6 +25,7 @@ from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
     from .._base.tables import Columns
 
@@ -114,12 +115,13 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
 
-    Points without a position are not joined: rows of a table have no order. The lines of f and of the power loss are
-    broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there, and the power loss
-    falls to that of rolling.
+    ``style``: of the lines, as of `lubfric.StribeckResult.plot`. Points without a position are not joined: rows of a
+    table have no order. The lines of f and of the power loss are broken where the direction of sliding changes, as at
+    the pitch point of a gear: f jumps there, and the power loss falls to that of rolling.
     """
     from matplotlib.ticker import MaxNLocator
 
+    figures.check_style(style, ("quantity", "ax", "label"))
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ORDERED_BY if name in result.coords), None)
     count = result.status.shape[-1]
@@ -232,10 +234,12 @@ def interval_band(
     *,
     has_parts: bool = True,
     as_bars: bool = False,
-) -> None:
+    color: Any = figures.BLUE,
+) -> list[Line2D]:
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
     the model and the finite surface leave by themselves, unless not ``has_parts``; ``as_bars``: as a bar at each point
-    instead. ``line``: (speeds, f) of a smooth curve to draw the band about."""
+    instead. ``line``: (speeds, f) of a smooth curve to draw the band about. ``color``: of all of it. Returns the thin
+    lines."""
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -251,10 +255,8 @@ def interval_band(
     low, high = (at(columns.get(f"interval_{end}", unknown) / moves - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         if "interval_low" in columns:
-            ax.fill(
-                [], [], fill=False, ec=figures.BLUE, ls="--", lw=0.8, label=f"{BAND} not known"
-            )  # a band without ends
-        return
+            ax.fill([], [], fill=False, ec=color, ls="--", lw=0.8, label=f"{BAND} not known")  # a band without ends
+        return []
     known = np.isfinite(columns.get("model_error", unknown)[np.isfinite(f)])
     band = BAND
     if not known.any():
@@ -263,63 +265,77 @@ def interval_band(
         band += ", model-form error where known"
     if as_bars:
         lengths = f - columns["interval_low"], columns["interval_high"] - f
-        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=figures.BLUE, elinewidth=0.8, capsize=2.5, label=band)
-        return
+        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
+        return []
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
-    ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
+    ax.fill_between(wide, sides[0], sides[1], color=color, alpha=0.2, lw=0, label=band)
     freedom = columns.get("sampling_freedom", unknown)
     of_sample = [half_width_of_error(*pair) for pair in zip(columns.get("sampling_error", unknown), freedom)]
     at_95 = dict(columns) | {"sampling_error": np.array(of_sample)}
+    drawn: list[Line2D] = []
     for name, dashes in OF_INTERVAL if has_parts else ():
         error = at(at_95.get(name, unknown))
         towards, away = (at(columns.get(f"{name}_{end}", unknown)) for end in ("low", "high"))
         towards, away = (np.where(np.isfinite(side), side, error) for side in (towards, away))
         if np.nanmax(error, initial=0.0) > 0:
-            thin: dict[str, Any] = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
+            thin: dict[str, Any] = {"color": color, "lw": 0.6, "ls": dashes}
             within = np.maximum(y * (1 - towards), ends[0]), np.minimum(y * (1 + away), ends[1])  # a part of the whole
             wide, *sides = figures.widened(x, *within)
-            ax.plot(wide, sides[0], **thin)
-            ax.plot(
-                wide, sides[1], **thin, label=f"{name.partition('_')[0].replace('model', 'model-form')} error alone"
-            )
+            label_of_error = f"{name.partition('_')[0].replace('model', 'model-form')} error alone"
+            drawn += ax.plot(wide, sides[0], **thin)
+            drawn += ax.plot(wide, sides[1], **thin, label=label_of_error)
+    return drawn
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrictionLines:
+    """The lines of a drawn curve: of ``f``, of its ``parts``, and the thin ones of single ``errors`` in its band."""
+
+    f: Line2D
+    parts: tuple[Line2D, ...]
+    errors: tuple[Line2D, ...]
 
 
 def friction_over_speed(
     axes: Axes,
-    columns: dict[str, np.ndarray],
+    columns: Mapping[str, np.ndarray],
     *,
     has_parts: bool = True,
     as_bars: bool = False,
+    has_interval: bool = True,
     without: Container[str] = (),
     **style: Any,
-) -> np.ndarray:
+) -> FrictionLines:
     """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
-    `interval_band`; ``without``: names of parts that are omitted), by the ``columns`` of a `lubfric.StribeckResult`;
-    between its points where f is `DRAWN_ERROR` there. Returns the indices of the points drawn, in order: those that
-    failed, and rest, are omitted."""
+    `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are omitted; ``style``:
+    of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR`
+    there. Points that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
-    c = type(columns)((name, column[order]) for name, column in columns.items())
+    c = {name: column[order] for name, column in columns.items()}
     speed = np.abs(c["speed"])
     load = c["contact_load"] + c["film_load"]
     line = _line(c)
-    interval_band(axes, speed, c, line and line[:2], has_parts=has_parts, as_bars=as_bars)
+    color = style.get("color", figures.BLUE)
+    errors: list[Line2D] = []
+    if has_interval:
+        about = line and line[:2]
+        errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        color = style.get("color", figures.BLUE)
         if speed.size > 1:  # a dotted line joins the points, and is no curve
-            is_new = figures.NOT_BETWEEN not in axes.get_legend_handles_labels()[1]
-            axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN if is_new else None)
-        figures.friction_lines(axes, speed, parts, without=without, **{"marker": "o", "ms": 4, "ls": ""} | style)
+            axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN)
+        points = {"marker": "o", "ms": 4, "ls": ""} | style
+        (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
     else:
-        figures.friction_lines(axes, line[0], line[1:], without=without, **style)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
+        (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
     figures.key_above(axes)
-    return order
+    return FrictionLines(f=f, parts=tuple(of_parts), errors=tuple(errors))
 
 
 def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
@@ -334,14 +350,6 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
     contact = curve.boundary(fine)
     film = curve.film(fine)
     return fine, contact + film, contact, film
-
-
-def curve_axes(curve: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """Draw friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are
-    returned; ``style``: of the line."""
-    axes = figures.axes_or_new(ax)
-    friction_over_speed(axes, columns_of_curve(curve), **style)
-    return axes
 
 
 def plot_map(

@@ -84,6 +84,64 @@ def test_a_curve_is_drawn_on_given_axes(curve):
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
 
 
+def test_curves_on_the_same_axes_differ_and_are_named_once(curve):
+    """In a journal's column: the key leaves most of the figure, and the label of f is whole."""
+    narrow = figures.new_figure(figsize=(84 / 25.4, 65 / 25.4))
+    ax = narrow.subplots()
+    curve.plot(ax)
+    curve.plot(ax=ax, label="superfinished")
+    curve.plot(ax)
+    named = [line for line in ax.lines if line.get_label() in ("superfinished", SCENE.name, f"{SCENE.name} (2)")]
+    assert len({line.get_color() for line in named}) == len(named) == 3
+    for part in ("asperity friction", "fluid friction"):
+        of_part = [line.get_color() for line in ax.lines if line.get_label() == part]
+        assert of_part == [line.get_color() for line in named]
+    key = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert len(set(key)) == len(key) and {"superfinished", f"{SCENE.name} (2)"} <= set(key)
+    narrow.canvas.draw()
+    assert ax.get_legend().get_window_extent().height < 0.3 * narrow.bbox.height
+    box = ax.yaxis.label.get_window_extent()
+    assert narrow.bbox.y0 <= box.y0 and box.y1 <= narrow.bbox.y1
+    assert curve.coefficient.max() < ax.get_ylim()[1] and ax.get_ylim()[0] == 0.0
+
+
+def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
+    ax = curve.plot(axes(), parts=False, interval="none", ls="--")
+    assert not ax.collections and not {"asperity friction", "fluid friction"} & set(lines(ax))
+    assert curve.plot(axes(), interval="bars").containers
+    for plot in (curve.plot, lubfric.study(SCENE, {"bodies.load": [2.0]}, [0.03]).plot):
+        with pytest.raises(lubfric.InputError, match="plot has no keyword 'partz'; allowed: ax.* of the line: color,"):
+            plot(partz=False)
+    with pytest.raises(lubfric.InputError, match="'band', 'bars', 'none'"):
+        curve.plot(interval="lines")
+
+
+def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkeypatch, capsys):
+    saved = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, path: (saved.append(figure), path.write_bytes(b"")))
+    for name, solved in (("a", curve), ("b", replace(curve, points=curve.points[:2], speed=curve.speed[:2]))):
+        (tmp_path / name).mkdir()
+        solved.to_csv(tmp_path / name / "stribeck.csv")
+        (tmp_path / name / "result.json").write_text('{"scene": {"name": "roller"}, "points": []}')
+    both = ["plot", str(tmp_path / "a"), str(tmp_path / "b")]
+    assert main([*both, "--without", "asperity-friction"]) == 0
+    assert (tmp_path / "a" / "stribeck_together.png").is_file()
+    (drawn,) = saved[0].axes
+    solved = lines(drawn)
+    np.testing.assert_allclose(solved["a"], np.stack([curve.speed, curve.coefficient], axis=1))
+    np.testing.assert_allclose(solved["b"], solved["a"][:2])
+    assert "asperity friction" not in solved
+    assert main([*both, "--labels", "ground, honed", "--width", "84 mm"]) == 0
+    assert {"ground", "honed"} <= set(lines(saved[1].axes[0]))
+    for more, words in (
+        (["--labels", "one"], "1 names for 2 folders"),
+        (["--panels", "film"], "--panels is for the picture of one run"),
+    ):
+        assert main([*both, *more]) == 2 and words in " ".join(capsys.readouterr().err.split())
+    (tmp_path / "b" / "stribeck.csv").unlink()
+    assert main(both) == 2 and "has no Stribeck curve" in " ".join(capsys.readouterr().err.split())
+
+
 def test_a_lone_point_shows_the_shares_of_its_load():
     """An area over one value of x would be invisible."""
     figures.load_shares(drawn := axes(), np.array([2.0]), np.array([0.25]))
