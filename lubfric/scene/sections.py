@@ -23,6 +23,8 @@ SECTIONS |= dict.fromkeys(ROUGH_SECTIONS, Roughness) | {
     "numerics": Numerics,
     "transient": Transient,
 }
+# Keys that may be a range though no name represents a typical value of them.
+RANGED_KEYS = ("lubricant.pressure_viscosity_coefficient",)
 NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
 
 
@@ -77,12 +79,17 @@ def _cleared(section: str, given: dict[str, Any], old: Any) -> dict[str, Any]:
     return {key: defaults.get(key) if value is None else value for key, value in given.items()}
 
 
+def takes_range(name: str) -> bool:
+    """Return whether the value of the key ``name`` (section.key) may be a range."""
+    return name in RANGED_KEYS or bool(typical(name))
+
+
 def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:
     """Return ``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is
     given).
 
-    It may be text with a unit; a name that represents a typical value and its range (typical.toml); and for such keys
-    [low, high], whose middle is the value, or [value, low, high]. A key without a unit is used unchanged.
+    It may be text with a unit; a name that represents a typical value and its range (typical.toml); and for a key that
+    `takes_range` [low, high], whose middle is the value, or [value, low, high]. A key without a unit is used unchanged.
     """
     name = f"{section}.{key}"
     if name not in KEYS:
@@ -95,7 +102,7 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     given = without_unit(name, validate.python_value(value), KEYS[name].unit, words)
     if isinstance(given, str) and given in known:
         given = known[given]
-    if not known or not isinstance(given, (list, tuple)):
+    if not takes_range(name) or not isinstance(given, (list, tuple)):
         return given, None
     if len(given) not in (2, 3) or not all(type(v) in (int, float) for v in given):
         raise InputError(f" = {validate.shown(value)}", name, "a number, [low, high], or [value, low, high]")
@@ -110,7 +117,7 @@ def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None
     """Return the ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one;
     of a complete section, None for all."""
     keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values
-    ranged = [key for key in keys if typical(f"{section}.{key}")]
+    ranged = [key for key in keys if takes_range(f"{section}.{key}")]
     is_complete = not isinstance(values, dict)
     return {f"{section}.{key}": None if is_complete else read_value(section, key, values[key])[1] for key in ranged}
 

@@ -16,6 +16,7 @@ from lubfric.scene import Table
 FRICTION = "boundary_friction_coefficient"
 HARDNESS = "hardness"
 EYRING = "eyring_stress"
+ALPHA = "pressure_viscosity_coefficient"
 SMALL = paper_scene(numerics={"sampling_tolerance": 0.1}, lubricant={EYRING: 5e6})
 
 
@@ -107,6 +108,39 @@ def test_the_deterministic_answer_has_its_ranges_too():
     by_friction = f(scene.with_(bodies={FRICTION: [0.08, 0.1]}), 0.03)
     share = 0.01 * by_friction.contact_load / scene.bodies.load / by_friction.coefficient
     assert by_friction.uncertainty.inputs == pytest.approx(share)
+
+
+@pytest.mark.parametrize("model", ["paper", "quick"])
+def test_the_change_by_a_pressure_viscosity_coefficient_is_that_of_points_at_both_ends(model):
+    """Within the residuals of the solves, on the same cells. The quick model calibrates f at each end by itself, so its f
+    before that is compared."""
+    contact = {"shape": (24, 24), "spacing": 90e-6 / 24}
+    scene = SMALL.with_(contact=contact, numerics={"model": model, "sampling": "patch"})
+
+    def of_cells(value):
+        point = f(scene.with_(lubricant={ALPHA: value}), 0.05)
+        return point, point.coefficient if model == "paper" else point.deterministic.coefficient
+
+    (known, middle) = of_cells([2.5e-8, 1.2e-8, 4e-8])
+    changes = [of_cells(end)[1] / middle - 1 for end in (1.2e-8, 4e-8)]
+    stated = [-known.uncertainty.input_sides.towards, known.uncertainty.input_sides.away]
+    assert stated == pytest.approx(sorted(changes), abs=4e-3) and min(map(abs, changes)) > 0.03
+    assert known.uncertainty.inputs_in_interval == (f"lubricant.{ALPHA}",)
+
+
+def test_a_range_of_the_pressure_viscosity_coefficient_of_an_oil_changes_nothing_else_of_it(tmp_path):
+    """It takes the place of the estimate, as one value does; at another temperature it is the same, and without a value
+    the estimate is back."""
+    scene = SMALL.with_(lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"})
+    known = scene.with_(lubricant={ALPHA: ["20 1/GPa", "15 1/GPa", "24 1/GPa"]})
+    for (_, *ends), alphas in zip(known.at_ends(), [(1.5e-8, 2.4e-8)], strict=True):
+        assert [end.lubricant for end in ends] == [scene.with_(lubricant={ALPHA: end}).lubricant for end in alphas]
+    (tmp_path / "scene.toml").write_text(known.to_toml())
+    assert lubfric.load_scene(tmp_path / "scene.toml") == known
+    assert known.with_(lubricant={"temperature": "90 °C"}).ranges == known.ranges
+    assert known.with_(lubricant={ALPHA: None}) == scene
+    with pytest.raises(lubfric.InputError, match="pressure_viscosity_coefficient"):
+        scene.with_(lubricant={ALPHA: [2e-8, 0.0, 3e-8]})  # no Roelands exponent
 
 
 def test_a_range_is_stated_from_its_lowest_to_its_highest_f():

@@ -168,13 +168,15 @@ def test_a_soft_body_is_answered_with_how_thick_its_cover_has_to_be():
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
 
 
-def test_a_given_pressure_viscosity_coefficient_is_exact():
+def test_a_given_pressure_viscosity_coefficient_is_no_estimate():
+    """As one value it is exact; as a range its change of f is in the interval."""
     oil = ROLLER.lubricant
-    given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient})
-    (estimated, exact) = (
-        " ".join(effect.what for effect in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
-    )
-    assert "in place of the estimate" in estimated and "in place of the estimate" not in exact
+    alpha = oil.pressure_viscosity_coefficient
+    givens = [{"pressure_viscosity_coefficient": given} for given in (alpha, [alpha, 0.7 * alpha, 1.1 * alpha])]
+    scenes = (ROLLER, *(ROLLER.with_(lubricant=given) for given in givens))
+    (estimated, *exact) = (" ".join(effect.what for effect in unmodelled_effects(scene, SQ, 1.0)) for scene in scenes)
+    assert "in place of the estimate" in estimated
+    assert not any("in place of the estimate" in text for text in exact)
 
 
 def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_and_what_to_do():
