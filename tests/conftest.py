@@ -4,7 +4,7 @@ every time; Ctrl-C interrupts; what is slow."""
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -79,6 +79,12 @@ def undrawn() -> Iterator[None]:
 def drawn(monkeypatch) -> None:
     """The pictures of commands are drawn."""
     put_back(monkeypatch.setattr)
+
+
+@pytest.fixture
+def draws(monkeypatch) -> Callable[..., None]:
+    """A function of the names of those pictures of commands that are drawn: as `drawn`, in less time."""
+    return lambda *names: put_back(monkeypatch.setattr, names)
 
 
 @pytest.fixture

@@ -21,7 +21,11 @@ def leave_out(replace=setattr) -> None:
     replace(commands.RunFolder, "draw", stand_in)
 
 
-def put_back(replace=setattr) -> None:
-    """Pictures are drawn again; ``replace``: as `setattr`."""
+def put_back(replace=setattr, names=None) -> None:
+    """Pictures are drawn again, or those of ``names`` alone; ``replace``: as `setattr`."""
+
+    def draw(folder, name, *how) -> None:
+        (DRAW if names is None or name in names else stand_in)(folder, name, *how)
+
     replace(commands.figures, "make_ready", MAKE_READY)
-    replace(commands.RunFolder, "draw", DRAW)
+    replace(commands.RunFolder, "draw", draw)

@@ -23,7 +23,7 @@ ROUGH = lubfric.load_scene("paper").with_(
 
 
 # What several tests begin with, on a smaller map.
-SHORT = ROUGH.with_(contact={"shape": (64, 48)})
+SHORT = ROUGH.with_(contact={"shape": (64, 32)})
 SLIDING = {"distance": 0.3, "wear_coefficient": 1e-6}
 
 
@@ -31,7 +31,7 @@ SLIDING = {"distance": 0.3, "wear_coefficient": 1e-6}
 def worn():
     """Distances at which a lift-off speed is sought take most of the time."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(steps, "RECORDS", 4)
+        patched.setattr(steps, "RECORDS", 3)
         return run_in(ROUGH, distance=0.5, wear_coefficient=1e-6)
 
 
@@ -222,7 +222,7 @@ def test_without_asperity_load_nothing_wears():
 def test_a_flat_contact_wears_too(monkeypatch):
     monkeypatch.setattr(steps, "RECORDS", 2)
     scene = ROUGH.with_(
-        contact={"geometry": "flat", "shape": (64, 64)},
+        contact={"geometry": "flat", "shape": (48, 32)},
         motion={"entrainment_speed": 0.05},
         numerics={"tolerance": 0.05},
     )

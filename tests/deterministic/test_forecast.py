@@ -1,5 +1,6 @@
 """A strip of moving roughness whose first steps in time forecast too much work leaves its point to the quick model, by itself."""
 
+import re
 from types import SimpleNamespace
 
 import pytest
@@ -56,9 +57,18 @@ def test_auto_ends_a_strip_whose_first_steps_forecast_too_much_work(with_limit):
     assert ended.decision.model == "quick" and ended.coefficient == quick.coefficient
     assert "by its first 13 steps in time one strip would take at least" in ended.decision.text
     assert "set numerics.model = 'deterministic' to solve it" in ended.decision.text
+    forecast = float(re.search(r"would take at least (\S+) s", ended.decision.text)[1])
+    assert of_quick < spent < of_quick + 0.5 * forecast
+
+
+@pytest.mark.slow
+def test_all_steps_of_a_strip_take_the_forecast_work(with_limit):
+    with_limit(1.0)
+    (ended, _) = counted()
+    forecast = float(re.search(r"would take at least (\S+) s", ended.decision.text)[1])
     (named, all_work) = counted("deterministic")
     assert named.decision.model == "deterministic"
-    assert of_quick < spent < of_quick + 0.5 * all_work
+    assert 0.8 * forecast < all_work
 
 
 def test_what_info_measures_says_that_the_solve_ends(monkeypatch):

@@ -18,8 +18,12 @@ def fails(*_, **__):
     )
 
 
-def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
-    solved = lubfric.friction(SCENE, SPEED)
+@pytest.fixture(scope="module")
+def solved():
+    return lubfric.friction(SCENE, SPEED)
+
+
+def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch, solved):
     monkeypatch.setattr(pieces, "_refined", fails)
     unsolved = lubfric.friction(SCENE, SPEED)
     assert unsolved.decision.model == solved.decision.model == "deterministic"
@@ -30,9 +34,8 @@ def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
     assert unsolved.coefficient == pytest.approx(solved.coefficient, rel=0.1)
 
 
-def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch):
+def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch, solved):
     """The strips have 35 x 200 cells, a piece on shorter ones 69 x 192."""
-    solved = lubfric.friction(SCENE, SPEED)
     monkeypatch.setattr(problem, "MOST_GRID_CELLS", 12_000)
     limited = lubfric.friction(SCENE, SPEED)
     assert limited.decision.model == solved.decision.model == "deterministic"

@@ -84,7 +84,8 @@ def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
     assert word in error and error.count("\n") == 1 and not Path("nowhere").exists()
 
 
-def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys, drawn):
+def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys, draws):
+    draws("stribeck.png")
     from lubfric.studies import points
 
     real = points.friction
@@ -105,7 +106,8 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
     assert (tmp_path / "o" / "stribeck.png").stat().st_size > 10_000
 
 
-def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys, drawn):
+def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys, draws):
+    draws("stribeck.png")
     heavy = SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
     heavy += 'film_deflection = "hydrodynamic"\n'  # the film too thick, and its friction with it
     (tmp_path / "heavy.toml").write_text(heavy)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pictures import STAND_IN, put_back
+from pictures import put_back
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
@@ -159,7 +159,7 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
 
 
 @pytest.mark.parametrize("ratios, x", [("0.1,0.4", [0.1, 0.2]), ("-0.2,0.2", [-0.1, 0.2])])
-def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monkeypatch, drawn, ratios, x):
+def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monkeypatch, draws, ratios, x):
     """By `lubfric run` and by `lubfric plot`: over the ratios as they are, or over their magnitudes if the curve has no
     negative ones. A line says which columns are read."""
     from matplotlib.axes import Axes
@@ -172,7 +172,7 @@ def test_measured_points_are_drawn_among_a_traction_curve(tmp_path, capsys, monk
         return real(self, place, f, *arguments, **options)
 
     monkeypatch.setattr(Axes, "errorbar", errorbar)
-    monkeypatch.setattr("lubfric.output.commands.plot_surface", lambda path, *_: path.write_bytes(STAND_IN))
+    draws("traction.png")
     motion = {"entrainment_speed": 1.0}
     scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}, motion=motion)
     (tmp_path / "s.toml").write_text(scene.to_toml())
@@ -211,7 +211,7 @@ COLUMNS = "--speed", "U", "--coefficient", "mu"
 
 
 @pytest.mark.parametrize("name", ODD[1:4:2] + [pytest.param(name, marks=pytest.mark.slow) for name in ODD[::2]])
-def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
+def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, draws):
     """Title, legend of a measured curve and file names: as they are, whatever matplotlib takes for a formula."""
     from matplotlib.figure import Figure
 
@@ -225,8 +225,7 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
         return real(self, *arguments, **options)
 
     monkeypatch.setattr(Figure, "savefig", savefig)
-    monkeypatch.setattr("lubfric.output.run_curve.plot_contact", lambda path, *_: path.write_bytes(STAND_IN))
-    monkeypatch.setattr("lubfric.output.commands.plot_surface", lambda path, *_: path.write_bytes(STAND_IN))
+    draws("stribeck.png")
     motion = {"speeds": [0.3, 1.0], "entrainment_speed": 1.0}
     scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}, motion=motion)
     (tmp_path / "s.toml").write_text(replace(scene, name=name).to_toml(), encoding="utf-8")
@@ -251,8 +250,9 @@ def test_a_history_and_a_traction_curve_have_any_name(tmp_path, drawn):
     assert main(["plot", str(tmp_path / "o")]) == 0
 
 
-def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, drawn):
+def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, draws):
     """Whatever the failure, table, fields and record of the new run are there, and it is said."""
+    draws("stribeck.png")
     (tmp_path / "s.toml").write_text(SCENE)
     out = tmp_path / "o"
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
@@ -261,14 +261,14 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     def broken(*_, **__):
         raise ZeroDivisionError("no picture")
 
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", broken)
-    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
+    with monkeypatch.context() as patched:
+        patched.setattr("lubfric.output.run_curve.plot_stribeck", broken)
+        assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert said.startswith("lubfric: stribeck.png was not drawn (ZeroDivisionError") and "all else is in" in said
     record = json.loads((out / "result.json").read_text())
     assert record["scene"]["lubricant"]["viscosity"] == 0.3 and record["points"][0]["coefficient"] > 0
     assert not (out / "stribeck.png").exists() and (out / "report.html").is_file()  # none of another run
-    monkeypatch.undo()
     assert (out / "unfinished").is_dir() and main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
     again = json.loads((out / "result.json").read_text())  # what was solved is drawn, and not solved again
     assert again["points"] == record["points"] and (out / "stribeck.png").exists()

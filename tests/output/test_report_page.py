@@ -93,32 +93,41 @@ def run(folder_of):
     return folder_of("run")
 
 
-def look(folder):
-    """What is seen of the report in ``folder`` in frames of `WIDTHS`, by their names: a window is at least 500 px wide."""
+def frames_of(folder):
+    """Return frames of `WIDTHS` around the report in ``folder``."""
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     printed = page.replace("@media print", "@media all").replace("@media screen and", "@media print and")
     pages = {name: printed if name == "paper" else page for name in WIDTHS}
     style = "height: 20000px; border: 0"  # all of a page without a bar to scroll
-    frames = [
+    return [
         f'<iframe srcdoc="{escape(pages[name])}" style="width: {px}px; {style}"></iframe>'
         for name, px in WIDTHS.items()
     ]
+
+
+@pytest.fixture(scope="module")
+def looks(folder_of, tmp_path_factory):
+    """What is seen of the report of each command in frames of `WIDTHS`, by their names, in one start of the browser: a window is at
+    least 500 px wide."""
+    folder = tmp_path_factory.mktemp("looks")
+    frames = [frame for kind in COMMANDS for frame in frames_of(folder_of(kind))]
     (folder / "look.html").write_text(f'<meta charset="utf-8"><body>{"".join(frames)}{LOOK}', encoding="utf-8")
     shown = browse(folder, "--window-size=1300,900", "--dump-dom", (folder / "look.html").as_uri()).stdout
-    return dict(zip(WIDTHS, json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))))
+    seen = iter(json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1])))
+    return {kind: {name: next(seen) for name in WIDTHS} for kind in COMMANDS}
 
 
 @pytest.mark.parametrize("kind", COMMANDS)
-def test_every_report_fits_a_phone_a_window_and_paper(folder_of, kind):
+def test_every_report_fits_a_phone_a_window_and_paper(looks, kind):
     """Nothing is wider than its page, and no table than a phone, a window or a sheet; a tablet scrolls a table by itself."""
-    for name, seen in look(folder_of(kind)).items():
+    for name, seen in looks[kind].items():
         assert seen["title"] == NAME and seen["head"].startswith(NAME) and seen["status"].startswith("Converged: ")
         assert seen["drawn"] and seen["images"] == PICTURES[kind]
         assert seen["width"] == WIDTHS[name] and seen["beyond"] <= 0 and len(seen["tables"]) > 5
         assert name == "tablet" or max(seen["tables"]) <= 0
 
 
-def test_a_report_opens_whole_and_runs_nothing(run):
+def test_a_report_opens_whole_and_runs_nothing(run, looks):
     page = (run / "out" / "report.html").read_text(encoding="utf-8")
     record = json.loads((run / "out" / "result.json").read_text())
     point = record["points"][1]
@@ -131,7 +140,7 @@ def test_a_report_opens_whole_and_runs_nothing(run):
     )
     parts += " the surface|Method and sources|Reproducibility"
     assert 'name="viewport"' in page and record["hash"] in page
-    for seen in look(run).values():
+    for seen in looks["run"].values():
         assert seen["title"] == NAME and seen["sections"] == parts.split("|")
         assert seen["status"].startswith("Converged: all 3 speeds are solved.")
         assert len(seen["folded"]) >= 2 and not any(seen["folded"])

@@ -11,9 +11,9 @@ from lubfric.output.status import missed_by_run
 from lubfric.scene import Harmonic, Transient
 
 SPEED = Harmonic(mean=0.1, amplitude=0.02, frequency=1000.0)
-RUN = paper_scene(numerics={"model": "paper", "accept": True}).with_(
-    transient=Transient(duration=1e-3, outputs=4, speed=SPEED)
-)
+RUN = paper_scene(
+    contact={"shape": (48, 48), "spacing": 1.8e-6}, numerics={"accept": True, "sampling": "patch", "tolerance": 0.05}
+).with_(transient=Transient(duration=1e-3, outputs=4, speed=SPEED))
 
 
 @pytest.fixture(scope="module")

@@ -89,8 +89,9 @@ def test_summits_that_long_cells_hide_are_found_on_shorter_ones(sharp):
     assert 0 < result.contact_load == pytest.approx(own.contact_load, rel=0.05)
 
 
-def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path, drawn):
+def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path, draws):
     """Kept on the cells that its contact was solved on, shorter than those of the line."""
+    draws("contact.png")
     (tmp_path / "sharp.toml").write_text(sharp.to_toml())
     out = tmp_path / "out"
     assert main(["run", str(tmp_path / "sharp.toml"), "--speeds", "3.6", "--out", str(out)]) == 0

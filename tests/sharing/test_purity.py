@@ -37,7 +37,9 @@ SCENES = {
     "flat": FLAT,
     "heat": PATCH.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
     "rolling": PATCH.with_(motion={"slide_roll_ratio": 0.0}),
-    "auto": LINE.with_(numerics={"model": "auto", "tolerance": 0.05} | LOOSE),
+    "auto": LINE.with_(
+        numerics={"model": "auto", "tolerance": 0.05} | LOOSE, contact={"shape": (48, 48), "spacing": 1.8e-6}
+    ),
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})
@@ -50,8 +52,8 @@ REST = [name for name in SCENES if name not in ("patch", "summits")]
 def scene_of(tmp_path_factory):
     """The scene of a name; the measured one reads a file."""
     path = tmp_path_factory.mktemp("map") / "map.npy"
-    np.save(path, lubfric.generate_surface((400, 240), 0.45e-6, sq=1e-7, correlation_length=4e-6, seed=5).heights)
-    measured = paper_scene(surface={"file": str(path), "spacing": 0.45e-6}, contact={"shape": None, "spacing": None})
+    np.save(path, lubfric.generate_surface((200, 120), 0.9e-6, sq=1e-7, correlation_length=4e-6, seed=5).heights)
+    measured = paper_scene(surface={"file": str(path), "spacing": 0.9e-6}, contact={"shape": None, "spacing": None})
     return (SCENES | {"measured": measured}).get
 
 

@@ -232,9 +232,14 @@ def test_the_correlation_length_of_a_measured_map_is_no_effect(tmp_path):
 
 def test_a_thinner_film_moves_load_to_asperities_as_solved_contacts_show():
     """In mixed lubrication f of the quick model rises where the film is thinner, as solved again; by load sharing it rises by less."""
-    scene = ROLLER.with_(numerics={"model": "quick", "sampling": None})
+    loose = {"sampling_tolerance": 0.3, "tolerance": 0.05}
+    scene = ROLLER.with_(
+        surface={"correlation_length": 3e-5},
+        contact={"spacing": 8e-6},
+        numerics={"model": "quick", "sampling": None} | loose,
+    )
     at = scene.line_contact(1.0).moes_film / SQ
-    speed = (0.6 / at) ** 1.5  # a lambda ratio of some 0.6
+    speed = (0.5 / at) ** 1.5  # a lambda ratio of some 0.5
     result = lubfric.friction(scene, speed)
     assert 0.3 < result.contact_load / 2000.0 < 0.95
     smoother = lubfric.friction(scene.with_(surface={"sq": 0.6 * SQ}), speed).coefficient / result.coefficient - 1

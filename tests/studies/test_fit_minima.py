@@ -99,7 +99,7 @@ def test_random_residuals_are_doubted_as_often_as_stated():
         line = np.stack([np.ones(count), x], axis=1)
         axes = np.linalg.qr(line)[0]
         further = np.linalg.qr(np.stack([np.ones(count), x, x**2, x**3], axis=1)[:, : min(count - 1, 4)])[0][:, 2:]
-        found = [chance_of(rng.standard_normal(count), axes, further)[2] for _ in range(150)]
+        found = [chance_of(rng.standard_normal(count), axes, further)[2] for _ in range(100)]
         assert np.mean(np.array(found) < 0.05) == pytest.approx(0.05, abs=0.05)
         assert np.mean(np.array(found) < 0.5) == pytest.approx(0.5, abs=0.13)
 
