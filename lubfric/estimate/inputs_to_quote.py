@@ -1,41 +1,118 @@
 """The inputs of a scene that a publication states beside its methods."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..film import line_peak_pressure
-from ..quantities import worded_value
-from ..scene import Roughness, Scene
+from ..quantities import COLUMNS, KEYS, worded_value
+from ..samples import rough_bodies
+from ..scene import HISTORIES, Roughness, Scene
+from ..surface import Surface
 from ..units import worded
 
 # Methods by which a pressure-viscosity coefficient is estimated (`lubfric.oil.Oil.pressure_viscosity_coefficient`).
 ESTIMATED_BY = ("gold", "so-klaus")
 
 
-def inputs_to_quote(scene: Scene, *, has_given_map: bool = False) -> tuple[str, ...]:
-    """Return the roughness, the load, the lubricant and the boundary friction of ``scene``, each with its unit as text, as far as it
-    has them. ``has_given_map``: whether maps were given in place of those of the scene."""
+def inputs_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False) -> tuple[str, ...]:
+    """Return the roughness, the load, the lubricant, the boundary friction and the sliding of ``scene``, each with its
+    unit and its range as text, as far as it has them; what changes in time as its range over the run. ``maps``: of its
+    rough bodies, before they are extended (`lubfric.samples.Sample.maps_before_extension`); ``has_given_map``: whether
+    maps were given in place of those of the scene."""
     bodies = scene.bodies
     peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
-    texts = ["height map given as an array"] if has_given_map else [*_roughness(scene)]
-    texts += [
-        f"load {worded(bodies.load, 'N')} on a length of {worded(bodies.width, 'm')}",
-        f"reduced radius {worded(bodies.radius, 'm')}",
-        f"peak Hertz pressure {worded(peak, 'Pa')}",
-        *_lubricant(scene),
-        f"boundary friction coefficient {worded(bodies.boundary_friction_coefficient, '-')}",
-    ]
+    histories = scene.transient
+    texts = ["height map given as an array"] if has_given_map else [*_roughness(scene, maps)]
+    if scene.numerics.sampling == "patch":
+        texts.append("one patch of the surface in place of strips, without a sampling error")
+    texts.append(f"{_in_time(scene, 'load', 'load', bodies.load)} on a length of {worded(bodies.width, 'm')}")
+    texts.append(_in_time(scene, "radius", "reduced radius", bodies.radius))
+    if histories is None or (histories.load is None and histories.radius is None):
+        texts.append(f"peak Hertz pressure {worded(peak, 'Pa')}")
+    texts += _lubricant(scene)
+    texts.append(
+        f"boundary friction coefficient {worded(bodies.boundary_friction_coefficient, '-')}"
+        f"{_range(scene, 'bodies.boundary_friction_coefficient')}"
+    )
     if bodies.boundary_film is not None:
-        texts.append(f"boundary film {worded(bodies.boundary_film, 'm')}")
+        texts.append(f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}")
+    if histories is not None:
+        texts.append(_in_time(scene, "speed", "entrainment speed", scene.motion.entrainment_speed))
+    if histories is not None and histories.sliding is not None:
+        texts.append(_in_time(scene, "sliding", "sliding speed", 0.0))
+    else:
+        texts.append(
+            f"slide-roll ratio {worded(scene.motion.slide_roll_ratio, '-')}{_range(scene, 'motion.slide_roll_ratio')}"
+        )
     return tuple(texts)
 
 
-def _roughness(scene: Scene) -> Iterator[str]:
-    for name, rough in (("", scene.surface), (" of the counterface", scene.counterface)):
-        if rough is not None and rough.file is not None:
-            yield f"height map{name} {Path(rough.file).name}"
-        if rough is not None and rough.sq is not None:
-            yield f"Sq{name} {worded(rough.sq, 'm')}{_correlation_length(rough)}"
+def span_to_quote(name: str, values: Sequence[float], unit: str) -> str:
+    """Return the range of ``values`` in the SI ``unit`` as text after their ``name``: "entrainment speeds 0.1 to 3 m/s"."""
+    low = min(values)
+    high = max(values)
+    if low == high:
+        return f"{name} {worded(low, unit)}"
+    return f"{name} {worded((low, high), unit).replace(' and ', ' to ')}"
+
+
+def varied_to_quote(key: str, values: Sequence[object]) -> str:
+    """Return the range of what a study varies under a ``key`` as text; its ``values`` where they are no numbers."""
+    quantity = KEYS.get(key) or COLUMNS.get(key)
+    name = key if quantity is None else quantity.label
+    numbers = [value for value in values if isinstance(value, (int, float)) and not isinstance(value, bool)]
+    if len(numbers) < len(values) or not numbers:
+        return f"{name} {', '.join(map(str, values))}"
+    if key == "lubricant.temperature":
+        return f"{name} {worded_value(key, min(numbers))} to {worded_value(key, max(numbers))}"
+    return span_to_quote(name, numbers, "-" if quantity is None else quantity.unit)
+
+
+def _in_time(scene: Scene, history: str, name: str, constant: float) -> str:
+    """Return what a ``history`` of the scene changes, after its ``name``, as its range over the run; the ``constant``
+    where it changes nothing."""
+    key = HISTORIES[history]
+    unit = KEYS[key].unit if key in KEYS else "m/s"
+    changing = getattr(scene.transient, history, None)
+    if scene.transient is None or changing is None:
+        return f"{name} {worded(constant, unit)}{_range(scene, key)}"
+    return span_to_quote(name, changing.range(scene.transient.duration), unit)
+
+
+def _range(scene: Scene, key: str) -> str:
+    """Return the range to which the value of a ``key`` is known, as text behind it; "" where it is exact."""
+    for name, low, high in scene.ranges:
+        if name == key:
+            return f" (range {worded((low, high), KEYS[key].unit).replace(' and ', ' to ')})"
+    return ""
+
+
+def _roughness(scene: Scene, maps: Sequence[Surface]) -> Iterator[str]:
+    bodies = rough_bodies(scene)
+    measured = dict(zip((name for _, name in bodies), maps)) if len(maps) == len(bodies) else {}
+    for rough, section in bodies:
+        name = "" if section == "surface" else " of the counterface"
+        if rough.file is not None:
+            yield f"height map{name} {Path(rough.file).name}{_map_in_words(rough, measured.get(section))}"
+        if rough.sq is not None:
+            yield f"Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}{_correlation_length(rough)}"
+
+
+def _map_in_words(rough: Roughness, surface: Surface | None) -> str:
+    """Return how a map was prepared, and if the ``surface`` before its extension is known its size and Sq, as text."""
+    facts = []
+    if surface is not None:
+        (nx, ny) = surface.shape
+        (lx, ly) = surface.size
+        facts += [f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm", f"Sq {worded(surface.sq, 'm')}"]
+    facts.append(f"form removed: {rough.form}")
+    if rough.outliers == "mask":
+        facts.append("outliers masked")
+    if surface is not None and surface.missing_fraction > 0:
+        facts.append(f"{100 * surface.missing_fraction:.2g} % of the points unmeasured or masked, and filled")
+    if rough.extension == "mirror":
+        facts.append("extended by its mirror image")
+    return f" ({', '.join(facts)})"
 
 
 def _correlation_length(rough: Roughness) -> str:
@@ -46,7 +123,7 @@ def _correlation_length(rough: Roughness) -> str:
 
 def _lubricant(scene: Scene) -> Iterator[str]:
     lubricant = scene.lubricant
-    yield f"viscosity {worded(lubricant.viscosity, 'Pa s')}" + (
+    yield _in_time(scene, "viscosity", "viscosity", lubricant.viscosity) + (
         "" if lubricant.temperature is None else f" at {worded_value('lubricant.temperature', lubricant.temperature)}"
     )
     if lubricant.viscosity_law != "constant":
@@ -55,9 +132,10 @@ def _lubricant(scene: Scene) -> Iterator[str]:
             estimate = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature).method
         is_estimated = estimate in ESTIMATED_BY
         alpha = worded(lubricant.pressure_viscosity_coefficient, "1/Pa")
-        yield f"pressure-viscosity coefficient {alpha}{' (estimated)' if is_estimated else ''}"
+        by_range = _range(scene, "lubricant.pressure_viscosity_coefficient")
+        yield f"pressure-viscosity coefficient {alpha}{' (estimated)' if is_estimated else ''}{by_range}"
     if lubricant.eyring_stress is not None:
-        yield f"Eyring stress {worded(lubricant.eyring_stress, 'Pa')}"
+        yield f"Eyring stress {worded(lubricant.eyring_stress, 'Pa')}{_range(scene, 'lubricant.eyring_stress')}"
     if lubricant.carreau is not None:
         (stress, exponent) = lubricant.carreau
         yield f"critical stress {worded(stress, 'Pa')} and exponent {exponent:.4g} of Carreau's law"

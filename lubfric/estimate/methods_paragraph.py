@@ -82,7 +82,7 @@ def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:
 def _reference(source: dict[str, Any]) -> str:
     """Return a ``source`` as it is cited within a sentence: "Polonsky and Keer 1999, doi:..."."""
     if source["type"] == "software":
-        return ", ".join(filter(None, ("lubfric", source.get("chapter", ""))))
+        return "documentation of lubfric"
     if source["type"] == "techreport":
         return f"{source['number']}, {source['year']}"
     names = [author.rpartition(" ")[2] for author in source["author"]]

@@ -15,6 +15,7 @@ from ..models import ContactFields, ModelDetails
 from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation, alpha_beside_interval
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
+from .inputs_to_quote import span_to_quote
 from .methods_paragraph import methods_paragraph
 from .uncertainty import NumberErrors, Uncertainty
 
@@ -208,8 +209,8 @@ def cited(
     return bibtex(sources) if format == "bibtex" else "\n".join(map(source_in_words, sources))
 
 
-def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str:
-    """Return the papers of several results, each once, in the ``format`` of `cited`."""
+def cite_together(points: Iterable[FrictionResult], format: str = "text", more_inputs: Sequence[str] = ()) -> str:
+    """Return the papers of several results, each once, in the ``format`` of `cited`; ``more_inputs``: of them, as text."""
     solved = list(points)
     methods = [name for point in solved for name in point.methods]
     return cited(
@@ -217,8 +218,16 @@ def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str
         format,
         decisions=[point.decision for point in solved],
         errors=[point.uncertainty for point in solved],
-        inputs=shared_inputs([point.inputs for point in solved]),
+        inputs=[*shared_inputs([point.inputs for point in solved]), *_speeds(solved), *more_inputs],
     )
+
+
+def _speeds(points: Sequence[FrictionResult]) -> list[str]:
+    """Return the entrainment speeds of the ``points`` as text; of several their range."""
+    speeds = [point.speed for point in points]
+    if not speeds:
+        return []
+    return [span_to_quote("entrainment speed" if min(speeds) == max(speeds) else "entrainment speeds", speeds, "m/s")]
 
 
 def shared_inputs(of_points: Sequence[Sequence[str]]) -> list[str]:

@@ -31,9 +31,9 @@ def scene_in_words(scene: Scene) -> str:
 
 
 def methods_to_quote(facts: Sequence[str], result: Any) -> str:
-    """Return a paragraph about the ``facts`` of a scene and the methods of its ``result`` (`cite`), which a reader may
-    quote."""
-    text = " ".join([*map(sentence, facts), result.cite("methods")]).strip()
+    """Return a paragraph about the inputs and the methods of a ``result`` (`cite`), which a reader may quote; the
+    ``facts`` of its scene where nothing was solved."""
+    text = result.cite("methods") or " ".join(map(sentence, facts))
     return f'<p class="small">Methods, to quote:</p><blockquote>{escape(text)}</blockquote>' if text else ""
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._base import FloatArray, figures
 from ..errors import InputError
-from ..samples import is_measured
+from ..samples import is_extended, is_measured
 from ..studies import friction_over_speed, gaps_of, interval_band
 from ..time import (
     add_angle_axis,
@@ -162,7 +162,10 @@ def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
     axes.plot(speed, separation * scale, "s--", color=figures.BLUE, ms=3, lw=1, label="central separation")
     sq = separation / c["film_to_roughness_ratio"]
     if np.isfinite(sq).all() and (sq > 0).all():  # not of smooth surfaces
-        for times, dashes, name in ((1, "--", f"Λ = 1 (Sq = {worded(float(sq[0]), 'm')})"), (3, ":", "Λ = 3")):
+        for times, dashes, name in (
+            (1, "--", f"Λ = 1 (Sq of solved surface {worded(float(sq[0]), 'm')})"),
+            (3, ":", "Λ = 3"),
+        ):
             axes.axhline(times * sq[0] * scale, color=figures.GREY, lw=0.8, ls=dashes, label=name)
     figures.key_above(axes, 2)
     axes.set(yscale="log", ylabel=f"film thickness ({printed(unit)})")
@@ -321,13 +324,19 @@ def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
 @figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
     """Draw the map that the scene of ``prepared`` has, to scale: of generated strips the first, as two of them beside
-    each other have a seam, and of a long line the beginning; and the bearing (Abbott-Firestone) curve of the whole of
-    it."""
+    each other have a seam, of a measured map that is continued by its mirror image the measured part, and of a long
+    line the beginning; and the bearing (Abbott-Firestone) curve of the whole of it."""
     sample = prepared.sample
     surface = sample.whole_map
+    (before, *others) = sample.maps_before_extension
+    is_mirrored = is_extended(prepared.scene) and before.shape != surface.shape
+    if is_mirrored and not others:
+        surface = before
     is_one_of_strips = sample.first_strips > 1 and not is_measured(prepared.scene)
     drawn = sample.strip(0) if is_one_of_strips else surface
     whole = f"the first of {sample.first_strips} strips" if is_one_of_strips else "the map"
+    if is_mirrored:
+        whole = "both maps with their mirror images" if others else "the measured part; its mirror image continues it"
     x, y = (np.arange(count) * step for count, step in zip(drawn.shape, drawn.spacing))
     part = drawn_part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
@@ -345,14 +354,16 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
         above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     drawn.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_xlabel("x (µm), along the motion")
-    shown = part_in_words(y, part, whole).removeprefix("; ") or (whole if is_one_of_strips else "")
+    shown = part_in_words(y, part, whole).removeprefix("; ") or (whole if is_one_of_strips or is_mirrored else "")
     above.set_title("\n".join(filter(None, (above.get_title(), shown))), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
+    bearing_of = "all strips" if is_one_of_strips else "complete map"
+    if is_mirrored and not others:
+        bearing_of = "measured part"
     bearing.set_title(
-        f"{'all strips' if is_one_of_strips else 'complete map'}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = "
-        f"{surface.ssk:.3g}",
+        f"{bearing_of}:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}",
         fontsize=10,
     )
     figure.savefig(

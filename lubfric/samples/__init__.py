@@ -14,6 +14,7 @@ from .maps import (
     check_map,
     combined_maps,
     contact_maps,
+    is_extended,
     is_measured,
     rough_bodies,
     way_to_longer_line,

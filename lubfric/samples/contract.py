@@ -148,7 +148,8 @@ class Sample(ABC):
         joined = (
             f"the first {self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
         )
-        return [self.map_in_words(surface), f"statistics of {joined}: {replace(surface, source='').describe()}"]
+        statistics = f"statistics of {joined}, whose Sq the lambda ratio has: {replace(surface, source='').describe()}"
+        return [self.map_in_words(surface), statistics]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
         """Return by how much, relative, the Sq of ``surface``, the `stated_map`, is above that of the `whole_map`, and the

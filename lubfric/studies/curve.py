@@ -16,6 +16,7 @@ from ..estimate import (
     cite_together,
     curve_of,
     row_of_uncertainty,
+    span_to_quote,
 )
 from ..models.shared import GatheredTexts, Violation, gathered_on_curve, in_a_cell, violations_of
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted, heading
@@ -86,7 +87,11 @@ class CurveResult(ABC, Renamed, Shown):
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used at any of the points, the model's first: one a line, or with
         ``format`` "bibtex" as BibTeX entries, or "methods" as a paragraph (`FrictionResult.cite`)."""
-        return cite_together((point for point in self.points if point is not None), format)
+        (name, _, unit, plural) = self.SWEPT
+        swept = [value for value, point in zip(getattr(self, name).tolist(), self.points) if point is not None]
+        is_speed = name == "speed"  # each point states its own
+        inputs = [span_to_quote(plural, swept, unit or "-")] if swept and not is_speed else []
+        return cite_together((point for point in self.points if point is not None), format, inputs)
 
     def _facts(self) -> dict[str, str]:
         name, symbol, unit, plural = self.SWEPT

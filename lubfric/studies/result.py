@@ -16,7 +16,15 @@ from numpy.typing import ArrayLike
 from .._base import Renamed, Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
-from ..estimate import UNCERTAINTY_COLUMNS, MethodUse, cited, inputs_to_quote, methods_of, shared_inputs
+from ..estimate import (
+    UNCERTAINTY_COLUMNS,
+    MethodUse,
+    cited,
+    inputs_to_quote,
+    methods_of,
+    shared_inputs,
+    varied_to_quote,
+)
 from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR, NUMBERS
@@ -235,8 +243,12 @@ class StudyResult(Renamed, Shown):
         prepared = prepare(self.plan.scenes[int(np.argmax(solved))])
         models = models_that_may_answer(prepared.scene.numerics.model)
         names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
-        inputs = shared_inputs([inputs_to_quote(scene) for scene in self.plan.scenes])
-        return cited(names, format, inputs=inputs)
+        roughness = [(scene.surface, scene.counterface) for scene in self.plan.scenes]
+        is_alike = all(pair == roughness[0] for pair in roughness)
+        maps = prepared.sample.maps_before_extension if is_alike else ()
+        inputs = shared_inputs([inputs_to_quote(scene, maps) for scene in self.plan.scenes])
+        varied = [varied_to_quote(key, values.tolist()) for key, (_, values) in self.coords.items()]
+        return cited(names, format, inputs=[*inputs, *varied])
 
     def _use(self, model: Model) -> MethodUse:
         """Return what the columns show of the methods that the study uses, where ``model`` answers."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
-from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
+from ..estimate import MethodUse, UncertaintyCurve, cited, inputs_to_quote, methods_of
 from ..models.load_sharing import OF_ROLLING
 from ..models.shared import (
     GatheredTexts,
@@ -118,6 +118,7 @@ class TransientResult(Renamed, Shown):
     requested : the output times [s] of the run, whether or not they were reached
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
     methods : names of the published methods used; ``cite()`` gives the publications
+    stated_inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
         if not known
@@ -138,11 +139,12 @@ class TransientResult(Renamed, Shown):
     requested: np.ndarray | tuple[float, ...] = ()
     model_form_unknown: str = ""
     methods: tuple[str, ...] = ()
+    stated_inputs: tuple[str, ...] = ()
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this run, the model's first: one a line, or with ``format``
         "bibtex" as BibTeX entries."""
-        return cited(self.methods, format)
+        return cited(self.methods, format, inputs=self.stated_inputs)
 
     @property
     def refused_outputs(self) -> int:
@@ -449,6 +451,9 @@ def collect(
         requested=plan.times,
         model_form_unknown=model.model_form_unknown,
         methods=methods_of(prepared, _use(prepared, columns)),
+        stated_inputs=inputs_to_quote(
+            prepared.scene, prepared.sample.maps_before_extension, has_given_map=prepared.has_given_map
+        ),
     )
 
 

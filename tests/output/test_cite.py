@@ -13,8 +13,9 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import packaged
-from lubfric.estimate import cited
+from lubfric.estimate import cited, inputs_to_quote
 from lubfric.output import main
+from lubfric.scene import Ramp, Transient
 
 
 def test_the_papers_are_those_of_what_was_used():
@@ -75,6 +76,8 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         "pressure-viscosity coefficient 20 1/GPa;",
         "Eyring stress 5 MPa",
         f"boundary friction coefficient {b.boundary_friction_coefficient:.4g}",
+        f"slide-roll ratio {scene.motion.slide_roll_ratio:.4g}; entrainment speed 0.03 m/s",
+        "one patch of the surface in place of strips",
         "boundary film 15 nm",
         f"{nx} x {ny} cells in 1 strip",
     ):
@@ -82,7 +85,31 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     estimated = lubfric.friction(PATCH.with_(lubricant=OIL), 0.03, raise_on_failure=False).cite("methods")
     assert "1/GPa (estimated)" in estimated and "boundary film " not in estimated.partition("The methods")[0]
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")
-    assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 3 N" not in study
+    assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 2 to 3 N" in study
+    assert "docs/" not in estimated + study
+
+
+def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
+    ranged = PATCH.with_(bodies={"boundary_friction_coefficient": [0.1, 0.12]})
+    assert "boundary friction coefficient 0.11 (range 0.1 to 0.12)" in cites_methods(ranged)
+    traction = lubfric.traction(PATCH, [0.5, 1.0], raise_on_failure=False).cite("methods")
+    assert "slide-roll ratios 0.5 to 1" in traction and "slide-roll ratio 2" not in traction
+    history = Transient(0.01, outputs=5, load=Ramp(start=100.0, end=200.0, until=0.01))
+    inputs = inputs_to_quote(replace(PATCH, transient=history))
+    assert inputs[2].startswith("load 100 to 200 N on a length of") and not any("peak" in text for text in inputs)
+
+
+def test_a_mirrored_map_is_quoted_as_it_was_measured(tmp_path):
+    """Its file has 60 x 40 points 2 µm apart, one of them unmeasured."""
+    z = 1e-7 * numpy.random.default_rng(1).standard_normal((60, 40))
+    z[3, 4] = math.nan
+    numpy.save(tmp_path / "map.npy", z)
+    surface = {"file": str(tmp_path / "map.npy"), "spacing": 2e-6, "extension": "mirror"}
+    scene = lubfric.load_scene("paper").with_(surface=surface)
+    whole = lubfric.read_surface(tmp_path / "map.npy", spacing=2e-6)
+    (text, *_) = inputs_to_quote(scene, [whole])
+    assert text.startswith("height map map.npy (60 x 40 points, 120 x 80 µm, Sq ")
+    assert "0.042 % of the points unmeasured" in text and text.endswith("extended by its mirror image)")
 
 
 def test_both_models_of_one_gap_cite_the_same_film():

@@ -93,7 +93,7 @@ class DeterministicModel(Model):
         )
         if has_moving_roughness(scene):
             return f"deterministic model with moving roughness {where}, {target}{elsewhere}"
-        return f"load-sharing model, corrected by the deterministic model on some strips, {where}, {target}{elsewhere}"
+        return f"{self.title}, on some strips as differences from the load-sharing model, {where}, {target}{elsewhere}"
 
     @property
     def most_strip_work_in_auto(self) -> float:

@@ -284,8 +284,12 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     parts = (by_cells, *answer.errors.parts_of_model)
     cases = on_long_cells.error_model.cases
     basis = f"quick model (the deterministic model on long cells, calibrated on {cases} solved cases)"
+    fields = answer.fields
+    if fields is not None:
+        fields = replace(fields, solve=f"quick model: {fields.solve} with long cells")
     return replace(
         answer,
+        fields=fields,
         errors=replace(
             answer.errors,
             model_error=sides_of_parts(parts).capped(),
