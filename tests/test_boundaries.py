@@ -92,7 +92,9 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
     models = ["lubfric.models.load_sharing", "lubfric.models.deterministic"]
     assert offenders("lubfric/estimate", models) == []
     contract = {
+        "ALL_TOUCH",
         "AUTO",
+        "NONE_TOUCHES",
         "prepare",
         "ContactFields",
         "MeasuredTime",

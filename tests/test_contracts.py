@@ -381,7 +381,7 @@ def test_a_registered_model_answers_wherever_a_scene_names_it(named, tmp_path):
 def test_a_registered_model_is_described_and_reported(named, tmp_path):
     """By the command line: what it is before the solve, and a report of its answer."""
     text = describe_scene(named)
-    assert "highest summit model (numerics.model)" in text and "'deterministic' to model it" in text
+    assert "highest summit model (numerics.model)" in text and "'deterministic' to model this motion" in text
     numerics = '[numerics]\nmodel = "highest summit"\nsampling_tolerance = 0.05\n'
     scene = BODIES_AND_OIL + SMALL_PATCH.split("[numerics]")[0] + numerics
     (tmp_path / "scene.toml").write_text(scene + "[motion]\nslide_roll_ratio = 0.5\nentrainment_speed = 0.03\n")

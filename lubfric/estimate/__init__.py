@@ -14,6 +14,7 @@ The way of a point, in the order of the modules:
 """
 
 from .build_result import beside_larger_part
+from .expected_of_sample import expected_of_sample
 from .friction import friction, most_work_of_estimate
 from .full_load import full_load_numbers
 from .inputs_to_quote import inputs_to_quote, span_to_quote, varied_to_quote

@@ -44,7 +44,7 @@ class WorkEstimate:
     longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     most_seconds : processor time [s] after which ``numerics.max_work`` ends it
     length : of the strips [m]; NaN: there is one patch
-    expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
+    expected_sampling_error : relative standard error of f after the first strips; NaN: not known
     expected_model_error : relative model-form error of f
     asperities : whether asperities touch: `ALL_TOUCH`, `FEW_TOUCH` or `NONE_TOUCHES`
     """

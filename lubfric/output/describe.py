@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..errors import InputError
 from ..estimate import (
     NOT_MEASURED,
@@ -13,6 +15,7 @@ from ..estimate import (
     PointWorkEstimate,
     WorkOfPoints,
     estimated_work_of_point,
+    expected_of_sample,
     expected_violations,
     rolling_resistance_error,
     seconds_of_points,
@@ -34,6 +37,7 @@ from ..models.shared import (
     beforehand,
     effect_in_words,
     expected_alpha_at,
+    expected_coefficient,
     expected_effects,
     gathered,
     inlet_at,
@@ -41,30 +45,36 @@ from ..models.shared import (
     rolling_model_error,
     student,
     violations_by_form,
-    violations_by_inlet_of_moment,
     violations_by_strips,
     violations_by_unusual_inputs,
 )
 from ..quantities import counted
 from ..samples import Sample, check_map, sample_of
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, sampled_times
-from ..studies import WITHIN_WORDS, expected_speeds, in_words
+from ..studies import WITHIN_WORDS, expected_speeds, gaps_of, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import (
+    STANDS_STILL,
     EffectOverTime,
     RunEstimate,
     check_run,
     estimated_run,
     expected_effects_of_run,
+    expected_violations_of_run,
     first_largest,
     may_move_roughness,
     periods,
     run_model_of,
     scene_at,
     speeds_of_run,
+    way_to_motion_in_time,
 )
 from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
+
+# Part of the largest f by which f may be above the line between two ratios, from which on this is stated before the
+# solve [-]. A choice: the closed form does not know f better.
+WIDE_GAP = 0.1
 
 # Speeds of many at which the work is counted, about. A choice: fewer take less time, and estimate worse.
 SOME = 25
@@ -242,8 +252,9 @@ def estimate_scene(
     may_refuse = {Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD}
     if scene.transient is not None and not run_model_of(scene).continues_patch:
         may_refuse.add(Assumption.LONG_PATCH)
-    refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption in may_refuse])
+    refusals = _doubts(scene, [pair for pair in at if pair[1].severe or pair[1].assumption in may_refuse])
     scene_map = sample.whole_map
+    gaps = _expected_gaps(scene, scene_map.sq, speeds[0], ratios) if len(ratios) else []
     effects, over_time, changes = _effects_before(scene, scene_map.sq, scene_speed)
     sections = {
         "transient": changing,
@@ -251,7 +262,7 @@ def estimate_scene(
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes or ["each known effect changes f by less than numerics.tolerance"],
-        "validity": _doubts(at) or ["no limit of the model is exceeded before the solve"],
+        "validity": [*_doubts(scene, at), *gaps] or ["no limit of the model is exceeded before the solve"],
     }
     return SceneEstimate(
         sections=sections,
@@ -280,25 +291,26 @@ def _how_well_known(
 
 
 def _violations_before(work: WorkOfPoints, speeds: list[float]) -> list[tuple[float | None, Violation]]:
-    """Return the assumptions that fail by what is known before the solve, each with its speed [m/s], or None where it
-    does not depend on the speed."""
+    """Return the assumptions that fail by what is known before the solve, each with its speed [m/s], or its
+    moment [s] of a run in time, or None where it does not depend on these."""
     scene = work.scene
     sample = work.sample
     surface = work.surface
-    at = [
+    at: list[tuple[float | None, Violation]] = [
         *((None, violation) for violation in beforehand(scene, sample, surface)),
         *(
             (None, violation)
             for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
         ),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
-        *_expected_of_models(work, sorted(set(speeds))),
     ]
     if scene.transient is not None:
-        fastest = _fastest_moment(scene)
-        top = fastest.motion.entrainment_speed
-        at += [(top, violation) for violation in violations_by_inlet_of_moment(fastest, top)]
-    return at
+        return [*at, *expected_violations_of_run(scene)]
+    different = sorted(set(speeds))
+    known = {violation.assumption for _, violation in at}
+    of_sample = expected_of_sample(scene, sample, [work.at(speed) for speed in different])
+    of_models = expected_violations(scene, sample, surface, different, work)
+    return [*at, *(pair for pair in of_sample if pair[1].assumption not in known), *of_models]
 
 
 def _effects_before(
@@ -377,11 +389,14 @@ def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[s
     return {} if measured is None else {longest.model.name: measured}
 
 
-def _expected_of_models(work: WorkOfPoints, speeds: list[float]) -> tuple[tuple[float | None, Violation], ...]:
-    """Return the limits of the models that will be exceeded at ``speeds`` [m/s], each with its speed."""
-    if work.scene.transient is not None:
-        return run_model_of(work.scene).model.expected_violations(work.scene, speeds)
-    return expected_violations(work.scene, work.sample, work.surface, speeds, work)
+def _expected_gaps(scene: Scene, sq: float, speed: float, ratios: Sequence[float]) -> list[str]:
+    """Return between which of the slide-roll ``ratios`` a traction curve at ``speed`` [m/s] is expected not to show f,
+    and which ratios do, in sentences; ``sq`` [m]: of the surface."""
+    scenes = [scene.with_(motion={"slide_roll_ratio": ratio}) for ratio in ratios]
+    f = np.array([expected_coefficient(at, sq, speed) for at in scenes])
+    gaps = gaps_of(ratios, f, np.full(f.size, math.nan))
+    wide = [gap for gap in gaps if gap.change > WIDE_GAP * f.max()]
+    return [f"warning: by closed forms, {gap.text}." for gap in wide]
 
 
 def _fastest_moment(scene: Scene) -> Scene:
@@ -392,11 +407,14 @@ def _fastest_moment(scene: Scene) -> Scene:
     return max(moments, key=lambda moment: abs(moment.motion.entrainment_speed))
 
 
-def _doubts(at: list[tuple[float | None, Violation]]) -> list[str]:
-    """Return the violations as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and a
-    violation."""
-    fixed = [violation.text for speed, violation in at if speed is None]
-    return [*fixed, *gathered([(speed, (violation,)) for speed, violation in at if speed is not None])]
+def _doubts(scene: Scene, at: list[tuple[float | None, Violation]]) -> list[str]:
+    """Return the violations of ``scene`` as text; ``at``: pairs as of `_violations_before`."""
+    fixed = [violation.text for place, violation in at if place is None]
+    moving: list[tuple[float, tuple[Violation, ...]]] = [
+        (place, (violation,)) for place, violation in at if place is not None
+    ]
+    unit, places = ("m/s", "speeds") if scene.transient is None else ("s", "moments")
+    return [*fixed, *gathered(moving, unit, places)]
 
 
 def _plan(scene: Scene, sample: Sample, surface: Surface) -> str:
@@ -421,9 +439,7 @@ def _model(
         run = run_model_of(scene)
         rows = [run.described(scene)]
         if has_moving_roughness(scene) and not may_move_roughness(scene):
-            rows.append(
-                "moving roughness is treated as stationary; set numerics.model = 'deterministic' to include its motion"
-            )
+            rows.append(f"{STANDS_STILL}; {way_to_motion_in_time(scene)}")
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
     forecasts = [work.at(speed, measured) for speed in moving[:: max(1, len(moving) // SOME)]]
@@ -442,7 +458,7 @@ def _model(
         if longest > strip:
             takes += f", and {in_words(longest)} if the error of its cells requires shorter cells"
         if not may_move_roughness(scene):
-            takes = f"moving roughness is treated as stationary; {takes}"
+            takes = f"{STANDS_STILL}; {takes}"
         if name == AUTO:
             takes += f"; {slow.limit_of_work_in_auto()}"
         rows.append(takes)

@@ -255,7 +255,8 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     lines = [line for axes in figure.axes for line in axes.lines]
     if any(line.get_linestyle() == "None" and line.get_markersize() == POINT_SIZE for line in lines):
         handles.append(Line2D([], [], **grey, marker="o", ms=POINT_SIZE, ls="", label="one point"))
-        handles.append(Line2D([], [], **grey, lw=0.7, alpha=0.4, label="its 95 % interval"))
+        if np.isfinite(columns.get(studies.INTERVAL_COLUMNS["coefficient"][0], np.zeros(0))).any():
+            handles.append(Line2D([], [], **grey, lw=0.7, alpha=0.4, label="its 95 % interval"))
     if any(line.get_markersize() == MEAN_SIZE for line in lines):
         handles.append(Line2D([], [], **grey, marker="o", ms=MEAN_SIZE, lw=1.0, label=MEAN))
         handles.append(Line2D([], [], **grey, lw=3.5, alpha=0.4, label=MIDDLE))
@@ -280,10 +281,11 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
 
 
 def _interval_in_words(columns: dict[str, np.ndarray]) -> str:
-    """Return the median 95 % interval of f of one point, relative; "" where no interval is known."""
+    """Return the median 95 % interval of f of one point, relative, or that none is known; "" where ``columns`` have
+    none."""
     low, high = (columns.get(name, np.zeros(0)) for name in studies.INTERVAL_COLUMNS["coefficient"])
     if not np.isfinite(low).any():
-        return ""
+        return "the 95 % interval of f is not known at any point" if low.size else ""
     f = columns["coefficient"]
     size = np.where(f == 0, np.nan, np.abs(f))
     down, up = (float(np.nanmedian(np.abs(end - f) / size)) for end in (low, high))

@@ -102,7 +102,10 @@ def fit_status(result: FitResult) -> tuple[str, str]:
         return "failed", "Not complete: the trust region did not end."
     if not result.describes_data:
         reason = "" if result.tests is None else result.tests.reason
-        return "failed", f"The fit converged, but does not describe the data: {reason}.{by_alpha}"
+        by_model = (
+            "" if result.tests is None or not result.tests.is_within_model else f" {result.tests.model_as_cause}."
+        )
+        return "failed", f"The fit converged, but does not describe the data: {reason}.{by_model}{by_alpha}"
     head = "Converged: the fit describes the data."
     if result.tests is not None and result.tests.doubtful:
         head = "Converged: the fit may describe the data, but the residuals may be systematic."
@@ -141,10 +144,15 @@ def _with_interval(result: FitResult, key: str) -> str:
     unit = KEYS[key].unit if key in KEYS else "-"
     if key in result.undetermined:
         return f"is not determined (every value from {worded_value(key, low)} to {worded_value(key, high)} fits)"
-    if not result.describes_data or not low < value < high or key == OIL_TEMPERATURE:
+    if not result.describes_data and key != OIL_TEMPERATURE:
+        return f"is about {worded_value(key, float(f'{value:.{DIGITS_IF_REFUSED}g}'))}"
+    if not low < value < high or key == OIL_TEMPERATURE:
         return f"= {worded_value(key, value)}"
     return f"= {with_interval(value, low, high, unit=unit)}"
 
+
+# Digits of a fitted value without a valid interval, in a sentence. A choice: more would promise what no interval does.
+DIGITS_IF_REFUSED = 2
 
 # The temperature of the oil, which is in °C where people read it.
 OIL_TEMPERATURE = "lubricant.temperature"

@@ -61,14 +61,14 @@ def run_study(arguments: Namespace) -> None:
         raise InputError("--cluster and --workers both say who solves; give one of them")
     plan = studies.load_study(arguments.study, arguments.points)
     if arguments.explain:
-        answer(plan.explain(arguments.out) + "\n")
+        answer(plan.explain(arguments.out, workers=workers) + "\n")
         return
     studies.check_tools(netcdf=arguments.netcdf, parquet=arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     others = (STUDY_PICTURE, "report.html", BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY)
     check_outputs(arguments, arguments.out, [*names, *others])
-    (explanation, expected) = studies.explained(plan, arguments.out)
+    (explanation, expected) = studies.explained(plan, arguments.out, workers=workers)
     say(explanation)
     begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)

@@ -57,7 +57,6 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             version=__version__,
             numpy=np.__version__,
             scipy=scipy.__version__,
-            key=result.plan.keys[0][:16],
             kind=status_of_study(result).kind(failed=result.failed > 0),
             status=escape(study_in_words(result)),
             answer="".join(

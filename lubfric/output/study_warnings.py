@@ -28,11 +28,18 @@ def counts_of_warnings(result: StudyResult) -> str:
     noted = {number for each in result.gathered if each.is_note for number in each.numbers}
     if not result.with_warnings and not noted:
         return ""
-    notes = (
-        f", notes at {len(noted)} (the interval of f covers what they say, or nothing is to be done)" if noted else ""
-    )
+    notes = f", notes at {len(noted)} ({_coverage_of_notes(result)})" if noted else ""
     where = f"warnings at {result.with_warnings} of {counted(result.solved, 'points')}{notes}"
     return f"{where}; study.csv has them in the column validity"
+
+
+def _coverage_of_notes(result: StudyResult) -> str:
+    """Return whether the intervals of f cover what notes say, as text."""
+    known = np.isfinite(result["interval_low"])[np.isfinite(result["coefficient"])]
+    if not known.any():
+        return "no point has an interval of f that would cover what they say"
+    where = "" if known.all() else ", where it is known,"
+    return f"the interval of f{where} covers what they say, or nothing is to be done"
 
 
 def warning_lines(result: StudyResult) -> list[str]:

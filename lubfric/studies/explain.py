@@ -11,7 +11,13 @@ from textwrap import shorten
 from typing import Any
 
 from ..errors import InputError
-from ..estimate import PointWorkEstimate, estimated_work_of_point, expected_violations, seconds_of_points
+from ..estimate import (
+    PointWorkEstimate,
+    estimated_work_of_point,
+    expected_of_sample,
+    expected_violations,
+    seconds_of_points,
+)
 from ..models import prepare, title_of
 from ..models.shared import (
     Assumption,
@@ -36,6 +42,10 @@ WITHIN_WORDS = "within a factor of 3 in four of five cases"
 
 # The speed of a curve that chooses its speeds, in the place of one: a name.
 NO_SPEED = None
+
+# Processor time [s] of a point from which on a study says that it keeps no part of it. A choice: a shorter one is no
+# loss.
+LONG_POINT = 20.0
 
 # Scenes of a study that are made ready to count their cells. A choice between time and what is seen.
 SAMPLED = 8
@@ -142,7 +152,7 @@ def _left(plan: Any, table: StudyTable) -> Left:
             seconds += one * len(left) / len(some)
             known |= _seconds_of_each(key, points, one) if speeds else {(key, NO_SPEED): one}
             models.update(point.model.name for point in points)
-            violations.append(_expected(prepared, speeds))
+            violations.append(_expected(prepared, speeds, points))
             effects += _expected_effects(prepared, speeds)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
@@ -169,13 +179,19 @@ def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float
     return {(key, point.speed): seconds for point, seconds in zip(points, alone)}
 
 
-def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:
+def _expected(
+    prepared: Prepared, speeds: Sequence[float], points: Sequence[PointWorkEstimate]
+) -> tuple[Violation, ...]:
     """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its
-    unusual values."""
+    unusual values; ``points``: the estimates of its points."""
     scene = prepared.scene
     solved_speeds = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
     expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds)
-    known = (*prepared.violations, *(violation for _, violation in expected))
+    known_before = {violation.assumption for violation in prepared.violations}
+    of_sample = [
+        pair for pair in expected_of_sample(scene, prepared.sample, points) if pair[1].assumption not in known_before
+    ]
+    known = (*prepared.violations, *(violation for _, violation in (*of_sample, *expected)))
     return tuple(violation for violation in known if violation.assumption != Assumption.USUAL_VALUES)
 
 
@@ -196,13 +212,14 @@ def in_words(seconds: float) -> str:
     return f"{float(f'{seconds:.2g}'):g} s"
 
 
-def explain(plan: Any, store: Path | None = None) -> str:
+def explain(plan: Any, store: Path | None = None, *, workers: int = 1) -> str:
     """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
-    others will take, as text. Some of the maps are made. No point is solved."""
-    return explained(plan, store)[0]
+    others will take on as many cores as there are ``workers``, as text. Some of the maps are made. No point is
+    solved."""
+    return explained(plan, store, workers=workers)[0]
 
 
-def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str, Any], float]]:
+def explained(plan: Any, store: Path | None = None, *, workers: int = 1) -> tuple[str, dict[tuple[str, Any], float]]:
     """Return what `explain` does, and the estimated processor seconds of each point that is left, as `Left.points`."""
     about = "about " if plan.chooses_speeds else ""
     different = plan.points if plan.chooses_speeds else sum(map(len, plan.requested.values()))
@@ -252,8 +269,21 @@ def explained(plan: Any, store: Path | None = None) -> tuple[str, dict[tuple[str
             for name, count in left.models.most_common()
         )
         lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")
-    lines.append(f"  time     about {in_words(left.seconds)} on one core ({WITHIN_WORDS})")
+    lines += [f"  {text}" for text in _time_in_words(left, workers, "curves" if plan.chooses_speeds else "points")]
     return "\n".join([*lines, *dict.fromkeys(left.failed)]), left.points
+
+
+def _time_in_words(left: Left, workers: int, what: str) -> Iterator[str]:
+    """Yield how long a study will take with so many ``workers``, and its parts (``what``, their plural), as text."""
+    text = f"time     about {in_words(left.seconds)} on one core"
+    longest = max(left.points.values())
+    if workers > 1:
+        text += f", {in_words(max(left.seconds / workers, longest))} with {workers} workers if each has a core"
+    yield f"{text} ({WITHIN_WORDS})"
+    if longest > LONG_POINT:
+        ends = dict.fromkeys(in_words(seconds) for seconds in (min(left.points.values()), longest))
+        kept = "an interrupted study keeps those that are solved, and no parts of others"
+        yield f"each     of the {what} takes about {' to '.join(ends)}; {kept}"
 
 
 def _range(key: str, values: tuple[Any, ...]) -> str:

@@ -132,10 +132,25 @@ class ResidualTests:
         tests show."""
         if self.describes:
             return ""
+        head = f"the fit does not describe the data: {self.reason}. The intervals are not valid"
+        if self.is_within_model:
+            return f"{head}. {self.model_as_cause}"
+        advice = "Choose other parameters, wider bounds or another model, or check the data"
+        return f"{head}. {advice}" + ("; state their deviations if they are known" if self.too_far else "")
+
+    @property
+    def is_within_model(self) -> bool:
+        """Whether the residuals of a fit that does not describe the data are within the model-form error of f."""
+        return not self.describes and self.relative <= self.expected
+
+    @property
+    def model_as_cause(self) -> str:
+        """That the model-form error may cause residuals that are within it, and what to do, in sentences."""
         return (
-            f"the fit does not describe the data: {self.reason}. The intervals are not valid. Choose other "
-            "parameters, wider bounds or another model, or check the data"
-            + ("; state their deviations if they are known" if self.too_far else "")
+            f"The residuals, {100 * self.relative:.2g} % of f, are within the model-form error of f, "
+            f"{100 * self.expected:.2g} % (both root mean square): the error of the model may cause them, with right "
+            "data and parameters. Fit by a model with a smaller error (numerics.model), and with other samples of "
+            "the surface (surface.seed)"
         )
 
     @property

@@ -1,5 +1,6 @@
 """Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
+from .checks_before_run import expected_violations_of_run
 from .effects import (
     EffectOverTime,
     EffectsOfMoment,
@@ -29,8 +30,9 @@ from .result import (
     sense_of_friction_over_time,
     time_scale,
 )
+from .roughness_in_motion import way_to_motion_in_time
 from .run import raise_if_failed, run_in_time, transient
 from .scene_in_time import fastest_of_run, scene_at
 from .start import speeds_of_run
 from .transient_deterministic import make_deterministic, start_deterministic
-from .transient_load_sharing import TransientLoadSharing
+from .transient_load_sharing import STANDS_STILL, TransientLoadSharing

@@ -19,6 +19,7 @@ from ..scene import Scene
 from ..units import worded
 from .registry import may_move_roughness
 from .result import TransientResult, rolls
+from .roughness_in_motion import way_to_motion_in_time
 from .scene_in_time import scene_at
 
 # Outputs of a run at which its effects are judged, about. A choice: each takes some milliseconds, and the extremes of the
@@ -85,6 +86,7 @@ def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectO
     evenly = moving[np.linspace(0, moving.size - 1, min(JUDGED_OUTPUTS, moving.size)).round().astype(int)]
     extremes = [pressures.argmax(), pressures.argmin(), f[moving].argmax(), f[moving].argmin()]
     extremes += [np.abs(result.entrainment_speed[moving]).argmax(), result.contact_load[moving].argmax()]
+    way = way_to_motion_in_time(prepared.scene)
     moments = []
     for index in sorted({*evenly.tolist(), *moving[extremes].tolist()}):
         load = result.load[index]
@@ -95,6 +97,7 @@ def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectO
             (abs(float(result.boundary_force[index] / load)), float(f[index])),
             run=prepared.scene,
             includes_motion=may_move_roughness(prepared.scene),
+            way_to_motion=way,
         )
         moments.append(
             EffectsOfMoment(
@@ -111,10 +114,13 @@ def expected_effects_of_run(scene: Scene, sq: float, times: Sequence[float]) -> 
     """Return the effects that are not modelled in a run of ``scene``, whose surface has the standard deviation ``sq`` [m],
     before it is solved: each at that of the ``times`` [s] at which the range of its relative change of f is widest."""
     moments = []
+    way = way_to_motion_in_time(scene)
     for time in times:
         now = scene_at(scene, time)
         speed = abs(now.motion.entrainment_speed)
-        effects = expected_effects(now, sq, speed, run=scene, includes_motion=may_move_roughness(scene))
+        effects = expected_effects(
+            now, sq, speed, run=scene, includes_motion=may_move_roughness(scene), way_to_motion=way
+        )
         moments.append(EffectsOfMoment(time=time, peak_pressure=_peak_pressure(now), friction=1.0, effects=effects))
     return largest_over_time(moments)
 

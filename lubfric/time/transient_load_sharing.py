@@ -6,7 +6,7 @@ import numpy as np
 
 from ..film import cubic
 from ..models.load_sharing import why_moment_unknown
-from ..models.shared import Prepared
+from ..models.shared import Prepared, stated_way_to_motion
 from ..scene import Scene, moving_bodies, sampled_times
 from .film_setting import TIME_SHARE, Setting
 from .load_sharing_solver import LoadSharingSolver
@@ -24,7 +24,7 @@ CONTACT_SHARE = 3.0
 # Loosest tolerance of the volume balance [-], whatever the local error of a step may be. A choice: f of every output follows
 # from it.
 LOOSEST_BALANCE = 1e-4
-STANDS_STILL = "moving roughness is treated as stationary; set numerics.model = 'deterministic' to include its motion"
+STANDS_STILL = "moving roughness is treated as stationary"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +65,7 @@ class TransientLoadSharing(LoadSharingSolver):
         rough = [name for name, _ in moving_bodies(self.scene)]
         times = sampled_times(self.scene)
         moving = any(surface_speed(self.scene, name, time) for name in rough for time in times)
-        return (STANDS_STILL,) if moving else ()
+        return (f"{STANDS_STILL}; {stated_way_to_motion(self.scene)}",) if moving else ()
 
     def record(self, progress: Progress) -> Output:
         """Return the numbers and fields after the last step."""

@@ -545,7 +545,9 @@ def test_the_table_of_a_run_in_time_has_the_values_of_each_moment():
         assert (
             load == pytest.approx(np.interp(time, (0.0, 0.5, 1.0), (900.0, 100.0, 900.0)), rel=2e-3) and radius == 10.0
         )
-    assert "at 2 m/s: warning: film thickness over that of a fully flooded inlet" in text
+    stated = " ".join(text.split())
+    of_inlet = stated.partition("film thickness over that of a fully flooded inlet (Moes) is ")[2]
+    assert "(at 0.5 s) to" in of_inlet.partition(". ")[0]  # the smallest one, at the largest speed
 
 
 def test_the_options_of_a_scene_file_are_those_of_a_run(tmp_path, capsys):
@@ -572,3 +574,14 @@ def test_info_says_that_load_sharing_answers_in_place_of_the_quick_model_under_a
     result = lubfric.friction(scene, 0.03)
     assert "load-sharing model in place of the quick model" in result.decision.text
     assert not any("not calibrated for such contacts" in entry.consequence for entry in result.validity)
+
+
+def test_info_states_between_which_ratios_a_traction_curve_will_not_show_f():
+    """Ratios in equal steps from 0 on do not show the knee of the Eyring stress; the solved curve finds the same gap."""
+    scene = HEAVY.with_(surface={"sq": 0.0}, lubricant={"eyring_stress": 5e6})
+    coarse = [0.0, 0.1, 0.2, 0.3, 0.4]
+    (gap, *_) = lubfric.traction(scene, coarse, speed=1.0).gaps
+    text = " ".join(described_scene(scene, (), coarse)[0].split())
+    assert gap.low == 0.0 and f"between the slide-roll ratios 0 and {gap.high:g} the solved points do not" in text
+    fine = [*gap.ratios, *coarse[1:]]
+    assert "between the slide-roll ratios 0" not in described_scene(scene, (), fine)[0]

@@ -184,7 +184,7 @@ def test_one_patch_is_too_short_for_an_interval():
         "correlation lengths of the solved surface along y are too few for an interval" in known.text
         and known.numerical > 0
     )
-    cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.15).uncertainty
+    cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.08).uncertainty
     assert "too short along y to estimate the undetected contact; give a longer map along y" in cleared.text
 
 
@@ -243,3 +243,14 @@ def test_ridges_that_yield_are_solved_though_no_contacts_can_be_counted(tmp_path
     point = lubfric.friction(scene, 0.003)
     assert point.plastic_area_fraction > 0 and point.uncertainty.effective_contacts == 0
     assert 0 <= point.errors.plastic_area_fraction < 1
+
+
+def test_a_patch_that_the_film_clears_by_far_has_an_interval_however_short():
+    """At a lambda ratio of 3.5 a summit that the patch does not show may touch; above 6 no summit of such heights is so
+    high."""
+    short = PATCH.with_(contact={"shape": (200, 80)})
+    near, far = (lubfric.friction(short, speed) for speed in (0.08, 0.3))
+    assert not math.isfinite(near.uncertainty.sampling) and near.contact_load == far.contact_load == 0.0
+    assert 0 <= far.uncertainty.sampling < 1e-3 and np.isfinite(far.uncertainty.interval).all()
+    long = lubfric.friction(PATCH.with_(contact={"shape": (200, 400)}), 0.3)
+    assert far.coefficient == pytest.approx(long.coefficient, rel=1e-3)

@@ -7,10 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scene_text import paper_scene
+from scipy import ndimage
 
 import lubfric
 from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
-from lubfric.models.load_sharing import load_sharing_error, moment_model_error, summit_radius, undetected_load
+from lubfric.models.load_sharing import (
+    load_of_tail,
+    load_sharing_error,
+    moment_model_error,
+    summit_radius,
+    undetected_load,
+)
 from lubfric.models.shared import (
     Assumption,
     ModelErrorPart,
@@ -71,6 +78,24 @@ def test_the_contact_that_a_line_misses(count):
     touching = 1 - math.exp(-math.exp(place / scale))
     sphere = 4 / 3 * (E_PRIME / 2) * math.sqrt(math.sqrt(RX * RY)) * scale**1.5 * 1.3293
     assert result == pytest.approx(touching * sphere / (8 * spacing[1]) * WIDTH, rel=1e-3)
+
+
+def test_the_load_on_the_tail_of_the_heights_is_that_of_the_summits_counted_above_a_film():
+    """On 3,000 correlation lengths squared, at a film of 3 Sq: each summit by itself, as a sphere pressed in by its
+    excess."""
+    surface = lubfric.generate_surface((512, 512), 1e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=2)
+    z = surface.heights - surface.heights.mean()
+    film = 3.0 * surface.sq
+    labels, count = ndimage.label(z > film)
+    excess = ndimage.maximum(z, labels, range(1, count + 1)) - film
+    counted = np.sum(4 / 3 * (E_PRIME / 2) * math.sqrt(summit_radius(z, surface.spacing)) * excess**1.5)
+    thickness = np.full(512, film)
+    load = load_of_tail(surface, thickness=thickness, step=1e-6, e_prime=E_PRIME, width=surface.size[1])
+    assert 1 / 3 < counted / load < 1.2  # at 3 Sq excesses are shorter than those of the asymptotic law
+    assert (
+        load_of_tail(surface, thickness=2 * thickness, step=1e-6, e_prime=E_PRIME, width=surface.size[1]) < 1e-4 * load
+    )
+    assert load_of_tail(surface, thickness=thickness / 6, step=1e-6, e_prime=E_PRIME, width=surface.size[1]) == math.inf
 
 
 def test_the_error_of_load_sharing_itself_is_that_of_its_rule():

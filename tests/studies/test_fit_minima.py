@@ -162,6 +162,19 @@ def test_residuals_of_a_system_and_large_ones_are_told():
     assert doubted.doubtful and doubted.describes and "may not describe the data" in doubted.note
 
 
+@pytest.mark.parametrize("expected", [0.0, 0.01, 0.5])
+def test_residuals_within_the_model_form_error_do_not_blame_the_data(expected):
+    """Only the seed of the surface differed from the truth, and the advice was to check the data."""
+    x = np.linspace(0.0, 1.0, 12)
+    residuals = 0.03 * np.sin(2 * np.pi * x)
+    tests = replace(
+        residual_tests(x, residuals, x[:, None], np.zeros(12), stated=False), relative=0.03, expected=expected
+    )
+    assert not tests.describes and tests.is_within_model == (expected > 0.03)
+    assert ("check the data" in tests.text) != ("error of the model may cause them" in tests.text)
+    assert tests.is_within_model == ("error of the model may cause them" in tests.text)
+
+
 @pytest.mark.parametrize("offset", [0.0, 0.006])
 def test_an_offset_of_a_rig_is_found_in_eleven_points(offset):
     """Eyring curves of two parameters: an offset of 100 % of the least f bends the fit, to within 9 % of the points."""

@@ -16,8 +16,10 @@ from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
     GIVE_LIMIT,
+    PLACE_BLOCK,
     SAMPLING_ERROR,
     SAMPLING_ERROR_MISSED,
+    TIME_BLOCK,
     Assumption,
     Decision,
     Heat,
@@ -60,7 +62,7 @@ from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip, summit_control
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import SampleCoarsening, StripOnTwoGrids, patch_coarsening_to_look_at, sample_coarsening_of
-from .time_and_place import PLACE_BLOCK, TIME_BLOCK, least_blocks
+from .time_and_place import least_blocks
 
 BY_PLACES = "the scatter of the difference between the models from strip to strip"
 LESS_BY_TOLERANCE = "set a smaller numerics.model_tolerance to reduce it"

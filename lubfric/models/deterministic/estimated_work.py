@@ -173,7 +173,7 @@ def estimated_work(
     if has_moving_roughness(scene):
         return _work_in_motion(scene, sample, surface, speed)
     scatter = 0.0
-    if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
+    if cheaper is not None and sample.represents_more and math.isfinite(cheaper.expected_sampling_error):
         scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
     allowed = math.hypot(
         DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance

@@ -81,7 +81,7 @@ CONTINUED_WAY = 0.4
 FEWEST_CONTINUED = 8
 
 # Distance that the roughness travels in the moments that count before the error of the mean is known first
-# [half-widths]: half of a block of time (`time_and_place.TIME_BLOCK`). A choice: less judges by too few moments, more
+# [half-widths]: half of a block of time (`TIME_BLOCK`). A choice: less judges by too few moments, more
 # may be in vain.
 PILOT_WAY = 1.5
 

@@ -12,24 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..shared import SHARED_LENGTH, StandardError
+from ..shared import LEAST_FREEDOM, PLACE_BLOCK, SHARED_LENGTH, TIME_BLOCK, StandardError
 from .summits import SummitControl
-
-# Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
-# exp(-(s/1.5 b)²) (needle roller, lambda ratio 0.5), with s the way travelled. A choice: twice that measured length;
-# shorter blocks depend on one another.
-TIME_BLOCK = 3.0
 
 # Half-widths: the correlation length 1.5 b of friction over time, without what the control explains. A choice, a little
 # less than that.
 TIME_LENGTH = 1.3
-
-# Correlation lengths along y in a block, at least. A choice: shorter blocks depend on one another, longer ones are too
-# few.
-PLACE_BLOCK = 4.0
-
-# Degrees of freedom below which the error is not known. A choice: Student's t is 2.8 there, and grows fast below.
-LEAST_FREEDOM = 4
 
 
 class Places(NamedTuple):

@@ -19,4 +19,4 @@ from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import MomentResponse, Response, Slopes, slopes_of
 from .scatter import effective_contacts, moment_error
-from .undetected import summit_radius, undetected_load
+from .undetected import load_of_tail, summit_radius, undetected_load

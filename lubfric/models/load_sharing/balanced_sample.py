@@ -139,6 +139,7 @@ class BalancedSample(SampleSolution):
                 film=raw_balance.film,
                 forces=raw_balance.forces,
                 correlation_length=sample.correlation_lengths[1],
+                whole=sample.whole_map,
             )
             return replace(balanced, undetected=undetected)
         effect = balanced.first_effect

@@ -137,6 +137,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     asperities = _asperities(film, float(surface.heights.max() - surface.heights.mean()))
     seconds = FILM_SECONDS * _times_by_heat(scene)
     error_of_model = expected_model_error(scene, film, sq, speed)
+    scatters = sample.represents_more or (sample.is_resolved and sq > 0)
+    error = expected_sampling_error(scene, sample, sq, film, speed) if scatters else math.nan
     if not sample.represents_more:
         if asperities != NONE_TOUCHES:
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
@@ -144,10 +146,10 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
             strips=1,
             seconds=seconds,
             ends_seconds=_ends(scene) * seconds,
+            expected_sampling_error=error,
             expected_model_error=error_of_model,
             asperities=asperities,
         )
-    error = expected_sampling_error(scene, sample, sq, film, speed)
     target = scene.numerics.sampling_tolerance
     count = math.ceil(sample.first_strips * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available_strips)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..._base import FloatArray
+from ...surface import rms_slope
 from .forces import Forces
 from .scatter import SPOT
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from ...contact import HalfSpaceContact
     from ...film import EHLResult
     from ...scene import Scene
+    from ...surface import Surface
 
 
 # Blocks below which nothing is known [-]. A choice: fewer have no scale.
@@ -30,14 +32,26 @@ UNSURE_SCALE = 2.0
 # Mean of (excess/scale)^1.5 of an exponential excess. It follows from ∫ x^1.5 exp(-x) dx = Γ(2.5).
 OVERLAP = math.gamma(2.5)
 
+# Relative effect on f below which contact on summits that a short line does not show is as good as none [-]. A choice:
+# a tenth of the usual tolerance on f.
+NEGLIGIBLE = 1e-3
+
 # Euler's constant: the mean of the standard Gumbel distribution. By definition.
 EULER = 0.5772156649
 
 
 def undetected_contact(
-    scene: Scene, rough_contact: HalfSpaceContact, *, film: EHLResult, forces: Forces, correlation_length: float
+    scene: Scene,
+    rough_contact: HalfSpaceContact,
+    *,
+    film: EHLResult,
+    forces: Forces,
+    correlation_length: float,
+    whole: Surface,
 ) -> float:
-    """Return the relative effect of `undetected_load` on f; NaN if ``rough_contact`` has too few cells along y."""
+    """Return the relative effect of `undetected_load` on f. Where ``rough_contact`` has too few cells along y for that,
+    it is that of `load_of_tail` of the ``whole`` map if it is below `NEGLIGIBLE`, because the film clears all summits
+    that such heights have; else NaN."""
     if not forces.coefficient:
         return math.nan
     under = film.film_at(rough_contact.x)
@@ -50,7 +64,38 @@ def undetected_contact(
         width=bodies.width,
         correlation_length=correlation_length,
     )
+    if math.isnan(load):
+        step = rough_contact.spacing[0]
+        load = load_of_tail(whole, thickness=under, step=step, e_prime=bodies.e_prime, width=bodies.width)
+        effect = _effect_on_f(scene, load, forces)
+        return effect if effect < NEGLIGIBLE else math.nan
     return _effect_on_f(scene, load, forces)
+
+
+def load_of_tail(surface: Surface, *, thickness: FloatArray, step: float, e_prime: float, width: float) -> float:
+    """Return the expected contact load [N] of the full ``width`` [m] under a film of ``thickness`` [m] (nx,), on
+    columns ``step`` [m] wide, if the heights of all of it are distributed as those of the map ``surface``.
+
+    On an area A of a Gaussian surface with the rms slopes s_x and s_y, A s_x s_y z exp(-z²/2)/(Sq² (2 π)^1.5) summits
+    are expected to be higher than z Sq, for z well above 1 (R. J. Adler, The Geometry of Random Fields, Wiley 1981).
+    Each is pressed in by an exponential excess of the scale Sq/z, as a sphere of the radius of the highest summit.
+    Where the highest summit of the map is higher than that which is expected of a Gaussian map of its size, Sq is
+    larger in proportion. Infinite where the film is thinner than the Sq of these summits.
+    """
+    if surface.sq == 0:
+        return 0.0
+    along, across, _ = rms_slope(surface)
+    density = along * across / (surface.sq**2 * (2 * math.pi) ** 1.5)
+    expected = math.sqrt(2 * math.log(max(density * surface.size[0] * surface.size[1], math.e)))
+    heights = surface.heights - surface.heights.mean()
+    sq = max(surface.sq, float(heights.max()) / expected)
+    z = thickness / sq
+    if z.min() <= 1:
+        return math.inf
+    summits = density * step * width * z * np.exp(-0.5 * z**2)
+    radius = summit_radius(heights, surface.spacing)
+    loads = 4 / 3 * 0.5 * e_prime * math.sqrt(radius) * (sq / z) ** 1.5 * OVERLAP
+    return float(np.sum(summits * loads))
 
 
 def undetected_load(

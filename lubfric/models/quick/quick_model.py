@@ -73,8 +73,11 @@ BY_LOAD_SHARING = "load-sharing model in place of the quick model"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick model is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
-    "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller. The "
-    "sampling error allows for higher asperities than those of the solved part; otherwise f does not depend on the sample"
+    "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller"
+)
+ONLY_HIGHER_ASPERITIES = (
+    "the sampling error allows for higher asperities than those of the solved part; otherwise f does not depend on the "
+    "sample"
 )
 STRIPS_NOT_SOLVED = (
     "friction by Eq. (9), with the error of the load-sharing model: the strips of the quick model were not solved ({})"
@@ -215,7 +218,11 @@ class QuickSolution(SampleSolution):
         assert solution.paper_solution is not None
         answer = solution.paper_solution.answer()
         decision = replace(answer.decision, basis=BY_LOAD_SHARING)
-        errors = replace(answer.errors, notes=(*answer.errors.notes, solution.why_by_equation))
+        notes = [*answer.errors.notes, solution.why_by_equation]
+        is_sampling_known = math.isfinite(answer.errors.sampling_error.value)
+        if answer.numbers["contact_load"] == 0 and is_sampling_known:
+            notes.append(ONLY_HIGHER_ASPERITIES)
+        errors = replace(answer.errors, notes=tuple(notes))
         return replace(answer, decision=decision, errors=errors)
 
 

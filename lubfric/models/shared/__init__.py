@@ -32,6 +32,7 @@ from .checks_before import (
     beforehand,
     expected_in_film,
     expected_on_hertz,
+    expected_without_interval,
     is_of_map_alone,
     stated_sq,
     violations_by_bodies,
@@ -101,11 +102,14 @@ from .sliding import is_by_sliding
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
+    LEAST_FREEDOM,
+    PLACE_BLOCK,
     SAMPLE_GROWTH,
     SAMPLING_ERROR_MISSED,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
     STRIPS_SAFETY,
+    TIME_BLOCK,
     StandardError,
     add_errors,
     area_needed,
@@ -130,7 +134,9 @@ from .unmodelled import (
     effect_in_words,
     expected_alpha_at,
     expected_alpha_in_words,
+    expected_coefficient,
     expected_effects,
+    stated_way_to_motion,
     unmodelled_effects,
 )
 from .violation import (

@@ -21,7 +21,7 @@ from ...samples import (
     way_to_longer_line,
     way_to_longer_patch,
 )
-from ...scene import Bodies, Scene, longest_contact, unusual_values
+from ...scene import Bodies, Scene, has_moving_roughness, longest_contact, unusual_values
 from ...surface import Surface, advised_form, correlation_length, rms_slope
 from ...units import worded
 from .checks import (
@@ -32,7 +32,7 @@ from .checks import (
     violations_by_pressure,
     violations_by_shear,
 )
-from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS
+from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS, LEAST_FREEDOM, PLACE_BLOCK, TIME_BLOCK
 from .violation import Assumption, Violation
 from .wording import percent
 
@@ -64,6 +64,10 @@ LEAST_PATCH_LENGTHS = 10
 # Correlation lengths that the windows of a measured map should be wide: the fewest from which the error by the sample is
 # known (statistics.py).
 LEAST_LENGTHS_FOR_INTERVAL = LEAST_BLOCKS * LEAST_BLOCK_LENGTH
+
+# Parameters of a straight line over the load of blocks, at least: those that friction follows without a control
+# (`lubfric.models.deterministic`). By definition.
+FEWEST_PARAMETERS = 2
 
 # Share [%] of Sq² that a form explains from which the map shows the form and not the roughness: its Sq is then twice that of the
 # roughness. A convention.
@@ -118,6 +122,30 @@ def why_too_few_blocks(
         f"lengths wide along y (a block needs {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
         "or a map that is longer along the motion"
     )
+
+
+def expected_without_interval(scene: Scene, sample: Sample, *, includes_motion: bool) -> Iterator[Violation]:
+    """Yield the violation by a ``sample`` all of which is too short for a sampling error of f where asperities touch;
+    ``includes_motion``: whether the model judges it by blocks of time and place where its roughness moves."""
+    if not sample.is_resolved or sample.sq == 0:
+        return
+    lengths = sample.available_strips * sample.strip_length / sample.correlation_lengths[1]
+    needed = float(LEAST_LENGTHS_FOR_INTERVAL)
+    advice = _ways_to_interval(scene, sample)
+    if includes_motion and has_moving_roughness(scene):
+        along = max(int(sample.stated_map().size[0] / (TIME_BLOCK * scene.bodies.half_width)), 1)
+        needed = PLACE_BLOCK * math.ceil((LEAST_FREEDOM + FEWEST_PARAMETERS) / along)
+        advice = f"{advice}, or a map that is longer along the motion"
+    if lengths < needed:
+        yield Violation(
+            assumption=Assumption.LONG_SAMPLE,
+            what="length of the sample along the line over the correlation length of the map",
+            value=lengths,
+            limit=needed,
+            unit="",
+            consequence="f will have no 95 % interval where asperities touch: its sampling error will not be known",
+            recommendation=advice,
+        )
 
 
 def _ways_to_interval(scene: Scene, sample: Sample) -> str:

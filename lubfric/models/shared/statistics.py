@@ -30,6 +30,18 @@ WANTED_BLOCK_LENGTH = 9.0
 # A choice: longer blocks are fewer.
 LEAST_BLOCK_LENGTH = 5.0
 
+# Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
+# exp(-(s/1.5 b)²) (needle roller, lambda ratio 0.5), with s the way travelled. A choice: twice that measured length;
+# shorter blocks depend on one another.
+TIME_BLOCK = 3.0
+
+# Correlation lengths along y in a block of moving roughness, at least. A choice: shorter blocks depend on one another,
+# longer ones are too few.
+PLACE_BLOCK = 4.0
+
+# Degrees of freedom below which the error is not known. A choice: Student's t is 2.8 there, and grows fast below.
+LEAST_FREEDOM = 4
+
 # Correlation lengths of a block that are as those of its neighbour: ∫ |y| exp(-y²) dy/∫ exp(-y²) dy, of a Gaussian
 # correlation. It follows from these integrals.
 SHARED_LENGTH = 1 / math.sqrt(math.pi)

@@ -19,7 +19,7 @@ import numpy as np
 
 from ...film import flooded_inlet, hertz, smallest_film, starved_inlet
 from ...oil import carried_stress, shear_stress
-from ...scene import Scene, has_generated_roughness, has_moving_roughness
+from ...scene import Scene, has_generated_roughness, has_moving_roughness, why_gap_not_resolved
 from ...units import worded
 from .checks import peak_hertz_pressure
 from .checks_before import STRIP_NODES
@@ -175,6 +175,7 @@ def unmodelled_effects(
     *,
     run: Scene | None = None,
     includes_motion: bool = True,
+    way_to_motion: str = "",
 ) -> tuple[UnmodelledEffect, ...]:
     """Return the effects that are not modelled for ``scene``, whose surface has the standard deviation ``sq`` [m], at
     ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
@@ -182,10 +183,13 @@ def unmodelled_effects(
 
     ``friction_parts``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``: the scene of
     the run in time of which ``scene`` is one moment, which holds the ranges and tables that a moment has not;
-    ``includes_motion``: whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`).
+    ``includes_motion``: whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`);
+    ``way_to_motion``: what to do to include it, as text; "": `stated_way_to_motion`.
     """
     tolerance = scene.numerics.tolerance
-    effects = _all_effects(scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion)
+    effects = _all_effects(
+        scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion
+    )
     return _largest_first([effect for effect in effects if not effect.largest_change <= tolerance])
 
 
@@ -270,11 +274,17 @@ def _largest_by_alpha(effects: Sequence[UnmodelledEffect] | Sequence[ExpectedEff
 
 
 def expected_effects(
-    scene: Scene, sq: float, speed: float, *, run: Scene | None = None, includes_motion: bool = True
+    scene: Scene,
+    sq: float,
+    speed: float,
+    *,
+    run: Scene | None = None,
+    includes_motion: bool = True,
+    way_to_motion: str = "",
 ) -> tuple[ExpectedEffect, ...]:
     """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
-    first. ``run``, ``includes_motion``: as in `unmodelled_effects`."""
+    first. ``run``, ``includes_motion``, ``way_to_motion``: as in `unmodelled_effects`."""
     of_boundary, f = _parts(scene, sq, speed)
     of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
     share = of_boundary / of_rubbing if of_rubbing else 0.0
@@ -285,7 +295,9 @@ def expected_effects(
         for more in SHEARS if of_rubbing and speed else (1.0,):
             friction_parts = of_rubbing * of_load, of_rubbing * of_load + more * shear * (1.0 - of_load)
             known_parts = friction_parts if friction_parts[1] > 0 else None
-            effects = _all_effects(scene, sq, speed, known_parts, run=run, includes_motion=includes_motion)
+            effects = _all_effects(
+                scene, sq, speed, known_parts, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion
+            )
             for effect in effects:
                 known = ranges.get(effect.what, _at_one_result(effect))
                 low = float(np.fmin(known.low, effect.change))
@@ -314,14 +326,16 @@ def _all_effects(
     *,
     run: Scene | None = None,
     includes_motion: bool,
+    way_to_motion: str = "",
 ) -> list[UnmodelledEffect]:
     """Return all effects, however small; arguments as of `unmodelled_effects`."""
     bodies = scene.bodies
     with_ranges = run or scene
     of_boundary, f = friction_parts or _parts(scene, sq, speed)
-    effects = (
-        [] if speed == 0 or not f > 0 else _of_film(scene, sq, speed, friction_parts, includes_motion=includes_motion)
-    )
+    effects: list[UnmodelledEffect] = []
+    if speed != 0 and f > 0:
+        of_motion = way_to_motion or stated_way_to_motion(with_ranges)
+        effects = _of_film(scene, sq, speed, friction_parts, includes_motion=includes_motion, way_to_motion=of_motion)
     is_stated = (
         any("boundary_friction" in name for name, *_ in with_ranges.ranges)
         or with_ranges.bodies.boundary_friction_table is not None
@@ -347,8 +361,27 @@ def _all_effects(
     return effects
 
 
+def expected_coefficient(scene: Scene, sq: float, speed: float) -> float:
+    """Return the guess of |f| [-] of ``scene`` at ``speed`` [m/s] from closed forms, of which only ratios count;
+    ``sq`` [m]: of its surface."""
+    return _parts(scene, sq, speed)[1]
+
+
+def stated_way_to_motion(scene: Scene) -> str:
+    """Return what to do so that f of ``scene`` includes the motion of its roughness, or why no model does, as text."""
+    if why := why_gap_not_resolved(scene):
+        return f"no model includes this motion with {why}"
+    return "set numerics.model = 'deterministic' to model this motion"
+
+
 def _of_film(
-    scene: Scene, sq: float, speed: float, friction_parts: tuple[float, float] | None, *, includes_motion: bool
+    scene: Scene,
+    sq: float,
+    speed: float,
+    friction_parts: tuple[float, float] | None,
+    *,
+    includes_motion: bool,
+    way_to_motion: str,
 ) -> list[UnmodelledEffect]:
     """Return what needs a film."""
     line = scene.line_contact(speed)
@@ -433,7 +466,7 @@ def _of_film(
                 UnmodelledEffect(
                     what="motion of the roughness through the contact",
                     change=math.nan,
-                    recommendation="set numerics.model = 'deterministic' to model it",
+                    recommendation=way_to_motion,
                 )
             )
     if scene.bodies.e_prime < SOFT_E_PRIME:

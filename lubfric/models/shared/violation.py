@@ -72,6 +72,7 @@ class Assumption(StrEnum):
     RESOLVED_SHEAR = "resolved shear stress in time"
     NUMERICAL_ERROR = "numerical error within its tolerance"
     SAMPLING_ERROR = "sampling error within its tolerance"
+    LARGE_ENOUGH_MAP = "map large enough for the tolerance of the sampling error"
     MODEL_FORM_ERROR = "model-form error within its tolerance"
 
 

@@ -1,0 +1,51 @@
+"""What is known of a run in time before it is solved: the limits that it exceeds, each at its moment, and advice that
+it can follow."""
+
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+from lubfric.models.shared import Assumption
+from lubfric.output import describe_scene
+from lubfric.scene import Table, Transient
+from lubfric.time import expected_violations_of_run
+
+NOSE = Table(times=(0.0, 1e-3, 2e-3), values=(0.3, 0.1, 0.2))
+SLIDING = Table(times=(0.0, 1e-3, 2e-3), values=(0.1, 0.4, 0.1))
+LOAD = Table(times=(0.0, 2e-3), values=(2.0, 5.5))
+RUN = paper_scene(
+    contact={"shape": (48, 48), "spacing": 1.8e-6},
+    numerics={"sampling": "patch", "tolerance": 0.05},
+    lubricant={"inlet_length": 2.5e-5},
+).with_(transient=Transient(duration=2e-3, outputs=8, load=LOAD, speed=NOSE, sliding=SLIDING))
+
+MOVING = RUN.with_(transient=Transient(duration=1e-5, outputs=1, speed=0.1), motion={"slide_roll_ratio": 0.5})
+
+
+@pytest.mark.parametrize("assumption", [Assumption.ONE_DIRECTION, Assumption.FLOODED_INLET])
+def test_a_limit_that_follows_from_the_inputs_is_known_before_the_run_at_its_worst_moment(assumption):
+    run = lubfric.transient(RUN)
+    solved = {
+        time: violation.value
+        for time, violations in zip(run.time, run.violations)
+        for violation in violations
+        if violation.assumption == assumption
+    }
+    before = {time: each.value for time, each in expected_violations_of_run(RUN) if each.assumption == assumption}
+    assert solved
+    for time, value in solved.items():
+        moment = min(before, key=lambda known: abs(known - time))
+        assert before[moment] == pytest.approx(value, rel=1e-3)
+    assert "moments, " in describe_scene(RUN)
+
+
+def test_info_advises_no_model_that_the_scene_is_refused_with():
+    """The deterministic model in time takes no inlet length."""
+    starved, flooded = (
+        " ".join(describe_scene(scene).split()) for scene in (MOVING, MOVING.with_(lubricant={"inlet_length": None}))
+    )
+    with pytest.raises(lubfric.InputError, match="inlet_length"):
+        lubfric.prepare(MOVING.with_(numerics={"model": "deterministic"}))
+    advice = "set numerics.model = 'deterministic' to model this motion"
+    assert advice not in starved and "no model includes this motion with lubricant.inlet_length" in starved
+    assert advice in flooded
