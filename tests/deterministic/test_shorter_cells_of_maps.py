@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric._base import limited_work
+from lubfric._base import count_work, limited_work
 from lubfric.estimate import estimated_work_of_point
 from lubfric.models.deterministic import ladder, pieces, shorter_cells
 from lubfric.models.deterministic.strip import cautious_changes, error_by_cells, expected_error_after
@@ -77,6 +77,16 @@ def test_cells_that_do_not_pay_are_not_solved_and_the_error_covers_them(scene, m
     assert complete.uncertainty.numerical < ended.uncertainty.numerical
     assert "shorter cells were not solved" in ended.uncertainty.text
     assert "shorter cells were not solved" not in complete.uncertainty.text
+
+
+def test_cells_that_take_more_than_those_that_converge_are_no_matter_of_the_work_of_the_point(scene, monkeypatch):
+    """A larger numerics.max_work would not solve them, so it is not advised."""
+    monkeypatch.setattr(shorter_cells, "solve_strip", lambda *_, **__: count_work(1e9))
+    result = lubfric.friction(scene)
+    assert "shorter cells did not converge: " in result.uncertainty.text
+    assert "max_work" not in result.uncertainty.text
+    (note,) = (each for each in result.validity if each.what == "estimated numerical error of f")
+    assert "surface.s_filter" in note.recommendation
 
 
 @pytest.mark.parametrize("ratio", [0.3, 0.5, 0.7])

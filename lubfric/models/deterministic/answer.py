@@ -105,6 +105,8 @@ BY_FLOW = "change of f with half the thinning of the flow at the limiting stress
 BY_LIMIT = "the limiting stress of the oil, which is not given"
 LESS_BY_LIMIT = "give lubricant.limiting_stress_coefficient to reduce it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
+# What lets shorter cells converge: on them the summits of an optical map are steeper.
+FILTERED_MAP = "filter short waves out of the map (surface.s_filter; f changes too)"
 SMALLER_SOLVE_TOLERANCE = "set a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to
@@ -366,6 +368,8 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
         return _fewer_cells(sample)
     if levels.end_of_cells.lacks_work:
         return f"{MORE_WORK} for shorter cells"
+    if levels.end_of_cells is EndOfCells.UNSOLVED:
+        return FILTERED_MAP
     if not sample.cells.is_native and not sample.refines_in_place:
         return "set numerics.grid = 'given' for shorter cells"
     return f"give {way_to_shorter_cells(prepared)}"
@@ -400,6 +404,8 @@ def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
     if levels.end_of_cells is EndOfCells.TOO_MANY:
         return f"{_fewer_cells(prepared.sample)} to reduce it"
+    if levels.end_of_cells is EndOfCells.UNSOLVED:
+        return f"{FILTERED_MAP} to reduce it"
     narrower = MORE_WORK if levels.end_of_cells.lacks_work else SMALLER_SOLVE_TOLERANCE
     return f"{narrower} to reduce it"
 

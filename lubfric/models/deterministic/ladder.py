@@ -146,10 +146,15 @@ def continued(
             if not is_worthwhile:
                 end = end_before(expected, work_left())
                 break
-            most_of_solve = min(work_left(), MOST_OVER_EXPECTED * expected) if has_end else work_left()
+            left_to_point = work_left()
+            most_of_solve = min(left_to_point, MOST_OVER_EXPECTED * expected) if has_end else left_to_point
             try:
                 with limited_work(most_of_solve):
                     strip = solve(shorter, ladder[-1])
+            except WorkLimitError:
+                is_of_point = most_of_solve == left_to_point  # else more than a solve that converges takes
+                end = EndOfCells.UNSOLVED_WITHIN_WORK if is_of_point else EndOfCells.UNSOLVED
+                break
             except (ConvergenceError, TooManyCellsError) as failure:
                 end = end_by(failure)
                 break
