@@ -45,7 +45,9 @@ def history_budget(result: TransientResult) -> str:
     if not sides:
         return ""
     values = {name: max(below, above) for name, (below, above) in sides.items()}
-    words = {name: percent_of_sides(both, values[name]) for name, both in sides.items()}
+    if values["input"] == 0.0:  # no range is in the interval, whether or not inputs have one
+        del values["input"]
+    words = {name: percent_of_sides(sides[name], largest) for name, largest in values.items()}
     notes = [
         "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at "
         "most transient.tolerance, is not included",

@@ -30,7 +30,7 @@ LARGEST_BETWEEN = 0.5
 SIGN_OF_F = (
     "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 "
     "([surface], U (1 - S/2)), over the load: positive where it resists the sliding, at either sign of the slide-roll "
-    "ratio S. The rolling part raises f at positive S, and lowers it, even below 0, at negative S."
+    "ratio S. Rolling resistance raises f at positive S, and lowers it, even below 0, at negative S."
 )
 # What is known of f where the sample is too short for an interval.
 WITHOUT_SAMPLING = (
@@ -228,13 +228,17 @@ def minimum_in_words(curve: StribeckResult) -> str:
     if minimum.is_bracketed:
         f = with_interval(minimum.coefficient, *minimum.interval)
         return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
+    between = f"between U = {low:.3g} and {high:.3g} m/s"
     more = "solve more speeds there, or let --speeds auto choose them"
-    if minimum.is_inside:
-        return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s; {more}."
-    outside = " and ".join(
-        name for name, reached in (("below", low <= solved[0]), ("above", high >= solved[-1])) if reached
-    )
-    return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
+    is_below = low <= solved[0]
+    is_above = high >= solved[-1]
+    if is_below and is_above:
+        return f"The speeds solved do not show where f has its minimum; {more}."
+    if is_above:
+        return f"The minimum of f lies {between} or at higher speeds; solve these to find it."
+    if is_below:
+        return f"The minimum of f lies {between} or at lower speeds; solve these to find it."
+    return f"The minimum of f lies {between}; {more}."
 
 
 def gap_notes(result: CurveResult | TransientResult) -> list[str]:

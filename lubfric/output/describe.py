@@ -261,7 +261,7 @@ def estimate_scene(
         "surface": [*sample.described(surface), *scene_map.used_parts, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
-        "effects not modelled": changes or ["each known effect changes f by less than numerics.tolerance"],
+        "effects not modelled": changes or ["each known effect changes f by less than the numerical tolerance"],
         "validity": [*_doubts(scene, at), *gaps] or ["no limit of the model is exceeded before the solve"],
     }
     return SceneEstimate(

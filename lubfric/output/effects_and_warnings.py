@@ -13,7 +13,7 @@ from .markup import bullets, folded_notes, table
 from .operating_point import place_on_curve
 
 # What the page has where there are no warnings.
-NO_WARNINGS = "No checked limit of the model is exceeded."
+NO_WARNINGS = "There are no warnings."
 
 
 def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterable[str] = ()) -> str:
@@ -32,7 +32,7 @@ def effects_table(
     """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place;
     ``moments``: of a run in time, when each is largest."""
     if not effects:
-        return f"<p>Each known effect changes f {escape(place)} by less than numerics.tolerance.</p>"
+        return f"<p>Each known effect changes f {escape(place)} by less than the numerical tolerance.</p>"
     cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
     rows = [
         f"<td>{escape(sentence(effect.what))}</td>"

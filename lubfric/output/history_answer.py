@@ -1,5 +1,7 @@
 """The answer of a run in time, in sentences."""
 
+import math
+
 import numpy as np
 
 from ..models.shared import sentence
@@ -34,6 +36,10 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
     mean_text = with_interval(mean.coefficient, *mean.interval, level)
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
+    if math.isfinite(mean.coefficient_of_losses):
+        sentences.append(
+            f"Weighted by load and sliding speed, as the losses of sliding are, it is {mean.coefficient_of_losses:.2g}."
+        )
     if result.model_form_unknown:
         sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
     range_ = with_interval(float(f[peak]), low, high, level)

@@ -8,9 +8,9 @@ from typing import Any
 
 from ..models.shared import sentence
 from ..quantities import KEYS
-from ..scene import Scene, short_keys
+from ..scene import Scene, short_keys, toml_value
 from ..units import worded
-from .inputs import FACTS, inputs
+from .inputs import FACTS, inputs, range_in_words
 from .markup import bullets, table
 
 # A radius that is infinite: the one input that may be.
@@ -21,7 +21,10 @@ BY_FIT = "fitted"
 NAMED_OIL = "oil"
 # Key of the bodies by their material, from which other inputs follow.
 NAMED_MATERIAL = "material"
-MOST_GIVEN = 60  # characters of a value in the column of how an input was given; a choice, by looking at the report
+# Key of the sliding speed over a run, which a scene has in its [transient].
+SLIDING_SPEED_KEY = "motion.sliding_speed"
+# Characters of a value in the column of how an input was given. A choice: it holds the table of a duty cycle.
+MOST_GIVEN = 400
 
 
 def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:
@@ -41,7 +44,7 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
         if f"{section}.{name}" in fitted:
             continue
-        used = _used_in_words(f"{section}.{name}", value)
+        used = _used_in_words(scene, f"{section}.{name}", value)
         rows.append(
             f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
         )
@@ -50,10 +53,12 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
 
 
-def _used_in_words(key: str, value: Any) -> str:
-    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; "" of a table."""
+def _used_in_words(scene: Scene, key: str, value: Any) -> str:
+    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; of a history its range over the run."""
+    if key == SLIDING_SPEED_KEY and scene.transient is not None and scene.transient.sliding is not None:
+        return range_in_words(*scene.transient.sliding.range(scene.transient.duration), "m/s")
     if isinstance(value, dict):
-        return ""
+        return "a table"
     values = value if isinstance(value, list) else [value]
     units = (KEYS[key].unit if key in KEYS else "-").split(", ")
     numbers_with_units = zip(values, cycle(units))
@@ -71,5 +76,5 @@ def _is_derived(scene: Scene, section: str, name: str, given: dict[str, Any]) ->
 
 
 def _given(name: str, value: Any) -> str:
-    text = f"{name} = {value!r}"
+    text = f"{name} = {toml_value(value)}"
     return text if len(text) <= MOST_GIVEN else f"{text[: MOST_GIVEN - 4]} ..."

@@ -73,6 +73,9 @@ class TimeAverage:
     - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then
       other asperities carry the load every `TransientResult.renewal`.
 
+    ``coefficient_of_losses`` is f weighted by load and sliding speed, over all times: the work of sliding is it times the
+    integral of the load over the sliding distance.
+
     ``interval`` is the 95 % interval of ``coefficient``, ``power_loss`` [W] the mean power loss of the whole run, with
     ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends. ``budget`` has
     the parts of it, relative errors of ``coefficient`` below and above it at 95 %: numerical, sampling, model-form and
@@ -84,6 +87,7 @@ class TimeAverage:
     fixed_scatter: float
     moving_scatter: float
     in_motion: float = 1.0
+    coefficient_of_losses: float = math.nan
     interval: tuple[float, float] = (math.nan, math.nan)
     budget: dict[str, tuple[float, float]] = field(default_factory=dict)
     power_loss: float = math.nan
@@ -232,12 +236,14 @@ class TransientResult(Renamed, Shown):
         sampling = float(np.average(error * np.abs(f), weights=weight)) / size
         fixed = sampling * math.sqrt(self.line_length / self.width)
         moved = float(np.sum(weight * np.abs(speed)))
+        slid = self.columns["load"][moving] * np.abs(self.columns["sliding_speed"][moving]) * weight
         return TimeAverage(
             coefficient=mean,
             sampling=sampling,
             fixed_scatter=fixed,
             moving_scatter=fixed / math.sqrt(max(1.0, moved / self.renewal)),
             in_motion=share,
+            coefficient_of_losses=float(np.average(f, weights=slid)) if slid.any() else math.nan,
             interval=(low, high),
             budget={
                 name: (_mean_known(below[moving], weight) / size, _mean_known(above[moving], weight) / size)

@@ -23,7 +23,9 @@ def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_
     section = page.partition("<h2>Effects not modelled</h2>")[2].partition("<h2>")[0]
     curve = lubfric.stribeck(lubfric.load_scene(tmp_path / "scene.toml").with_(numerics={"accept": True}))
     own, *others = curve.points
-    assert own.unmodelled_effects == () and "changes f at U = 0.0001 m/s by less than numerics.tolerance" in section
+    assert (
+        own.unmodelled_effects == () and "changes f at U = 0.0001 m/s by less than the numerical tolerance" in section
+    )
     largest = {}
     for point in others:
         for effect in point.unmodelled_effects:

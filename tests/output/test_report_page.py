@@ -21,6 +21,7 @@ from lubfric.output.history_table import evenly_by_change
 from lubfric.output.inputs_as_given import inputs_as_given
 from lubfric.output.missed_tolerances import MissedTolerance, missed_tolerances
 from lubfric.output.status import shortfalls
+from lubfric.scene import Table, Transient
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]
@@ -159,12 +160,19 @@ def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.3", "--out", str(tmp_path / "out")]) == 0
     page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
     row = re.search(r"<tr>(?:(?!</tr>).)*root mean square height Sq.*?</tr>", page)[0]
-    assert (
-        "radii = [.4 mm., .4 mm.]" in page.replace(chr(39), ".")
-        and "100.3 nm" in row
-        and "derived" in row
-        and "ra = '80 nm'" in page
-    )
+    assert 'radii = ["4 mm", "4 mm"]' in page and 'ra = "80 nm"' in page
+    assert "100.3 nm" in row and "derived" in row
+
+
+def test_a_history_stands_as_it_was_given_beside_its_range():
+    """A duty cycle in full, and a sliding speed, which the scene has in its [transient]."""
+    cycle = {"kind": "table", "times": [0.0, 0.01, 0.02], "values": [1.0, -2.0, 1.0], "repeat": True}
+    motion = {"entrainment_speed": 1.0, "sliding_speed": cycle}
+    plan = Transient(0.02, outputs=3, speed=1.0, sliding=Table(times=(0.0, 0.01, 0.02), values=(1.0, -2.0, 1.0)))
+    scene = lubfric.load_scene("paper").with_(transient=plan)
+    (row,) = re.findall(r"<tr>(?:(?!</tr>).)*sliding speed.*?</tr>", unescape(inputs_as_given(scene, "motion", motion)))
+    assert "-2 to 1 m/s" in row
+    assert 'kind = "table", times = [0.0, 0.01, 0.02], values = [1.0, -2.0, 1.0], repeat = true' in row
 
 
 @pytest.mark.parametrize("kind", COMMANDS)

@@ -206,6 +206,25 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
     assert mean.budget["sampling"] == (0.0, 0.0)
 
 
+def test_the_work_of_sliding_is_the_weighted_mean_of_f_times_load_and_distance(held):
+    """By trapezes over four outputs: f F |u2 - u1|, with a load and a speed that change."""
+    f = np.array([0.04, 0.06, 0.05, 0.03])
+    load = np.array([100.0, 300.0, 200.0, 50.0])
+    sliding = np.array([1.0, -0.5, 0.2, 2.0])
+    columns = dict.fromkeys(held.columns, np.zeros(4)) | {
+        "time": np.array([0.0, 1.0, 3.0, 3.5]),
+        "coefficient": f,
+        "entrainment_speed": np.ones(4),
+        "sliding_speed": sliding,
+        "load": load,
+        "boundary_force": f * load,
+    }
+    mean = replace(held, columns=columns, inputs=0.0, requested=()).average()
+    slid = load * np.abs(sliding)
+    work = np.trapezoid(f * slid, columns["time"])
+    assert mean.coefficient_of_losses * np.trapezoid(slid, columns["time"]) == pytest.approx(work, rel=1e-12)
+
+
 def test_a_reversal_is_reported_without_the_advice_on_percent():
     plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
     scene = paper_scene(contact=SMALL, numerics=PATCH).with_(transient=plan)

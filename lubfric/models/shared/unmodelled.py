@@ -211,7 +211,7 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
     worst = max(numbers, key=lambda number: changes[number])
     largest = at_most_in_words(changes[worst]) + (f" (at point {worst})" if count > 1 else "")
     where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
-    others = " (less than numerics.tolerance at the others)" if len(numbers) < count else ""
+    others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
     return (
         f"The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. {where}{others}, by closed forms, "
         f"that of measured oils changes f by {largest}; give lubricant.pressure_viscosity_coefficient."
