@@ -143,8 +143,7 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     if not wide.any():
         return answers
     return (
-        f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
-        "(numerics.model_tolerance). For a narrower interval, solve a steady point with the values of such a moment "
+        f"{answers} For a narrower interval of a moment, solve a steady point with its values "
         "(a scene without [transient]); this helps where the deterministic model applies and heat causes less than "
         "half of this error."
     )

@@ -95,7 +95,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
 
 def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a run in time fills."""
-    above = missed_by_run(result)
+    above = missed_by_run(prepared.scene, result)
     return {
         "kind": status_kind(failed=not result.is_complete, inexact=len(above)),
         "status": escape(" ".join((result.status, *above))),

@@ -10,7 +10,7 @@ from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, 
 from ..quantities import counted
 from ..scene import Scene
 from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_study
-from ..time import TransientResult
+from ..time import TransientResult, counts_in_average
 from .missed_tolerances import MissedTolerance, missed_tolerances
 from .operating_point import place_on_curve
 from .study_points import scene_of_each
@@ -139,16 +139,26 @@ def shortfalls(exceeded: Sequence[MissedTolerance], unknown: int, total: int, pl
     return sentences
 
 
-def missed_by_run(result: TransientResult) -> list[str]:
-    """Return the errors of f that are above their tolerances at outputs of a run, in a sentence each."""
+def missed_by_run(scene: Scene, result: TransientResult) -> list[str]:
+    """Return the errors of f that are above their tolerances at outputs of a run of ``scene``, in a sentence each."""
     sentences = []
+    named = set()
     for each in result.gathered:
         violation = each.violation
         if violation is None or violation.is_note or violation.assumption not in ERRORS_OF_F:
             continue
+        named.add(violation.assumption)
         worst = f"{float(f'{violation.value:.2g}'):g} {violation.unit}"
         sentences.append(
             f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} "
             f"{violation.unit}, up to {worst}."
+        )
+    tolerance = scene.numerics.model_tolerance
+    errors = np.where(counts_in_average(result.columns), result.uncertainty.model, 0.0)
+    wide = int(np.count_nonzero(errors > tolerance))
+    if wide and Assumption.MODEL_FORM_ERROR not in named:
+        sentences.append(
+            f"At {counted(wide, 'outputs')} the model-form error of f is above {100 * tolerance:g} % "
+            f"(numerics.model_tolerance), up to {percent(float(np.nanmax(errors)))}."
         )
     return sentences

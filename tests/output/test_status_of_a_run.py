@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from scene_text import paper_scene
 
@@ -37,7 +38,14 @@ def above(assumption, value, *, is_note=False):
 def test_the_worst_output_is_named_and_notes_are_left_out(run):
     count = run.time.size
     errors = [(above(Assumption.MODEL_FORM_ERROR, 6.0 + number),) for number in range(count)]
-    (text,) = missed_by_run(replace(run, violations=tuple(errors)))
+    (text,) = missed_by_run(RUN, replace(run, violations=tuple(errors)))
     assert "model-form error of f is above 5 %" in text and f"up to {6 + count - 1} %" in text
     notes = [(above(Assumption.MODEL_FORM_ERROR, 6.0, is_note=True),)] * count
-    assert missed_by_run(replace(run, violations=tuple(notes))) == []
+    exact = run.columns | {f"model_error_{end}": np.zeros(count) for end in ("low", "high")}
+    assert missed_by_run(RUN, replace(run, violations=tuple(notes), columns=exact)) == []
+
+
+def test_an_error_by_the_model_of_the_run_is_named_with_its_largest_value(run):
+    wide = run.columns | {"model_error_low": np.full(run.time.size, 0.3), "model_error_high": np.zeros(run.time.size)}
+    (text,) = missed_by_run(RUN, replace(run, violations=(), columns=wide))
+    assert "model-form error of f is above 5 %" in text and "up to 30 %" in text
