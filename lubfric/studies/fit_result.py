@@ -265,7 +265,8 @@ class FitResult(Renamed, Shown):
     @property
     def not_in_intervals(self) -> tuple[str, ...]:
         """What the intervals of the parameters do not include, one text each."""
-        return tuple(filter(None, (self.error_of_alpha, self._model_note(), self._surface_note())))
+        notes = (self.error_of_alpha, self._ranges_note(), self._model_note(), self._surface_note())
+        return tuple(filter(None, notes))
 
     @property
     def error_of_alpha(self) -> str:
@@ -343,6 +344,11 @@ class FitResult(Renamed, Shown):
             f"The data do not determine it {side}: f does not change with it at {value}, and every value from {known} "
             f"to its bound {bound} fits as well"
         )
+
+    def _ranges_note(self) -> str:
+        """Return that the intervals do not include the ranges of inputs that are not fitted, as text; "" without one."""
+        keys = [key for key, *_ in self.scene.ranges]
+        return f"not in the intervals: the ranges of {', '.join(keys)}" if keys else ""
 
     def _model_note(self) -> str:
         """Return that the intervals do not include the model-form error of f, as text; "" where it has none."""

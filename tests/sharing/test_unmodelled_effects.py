@@ -179,6 +179,13 @@ def test_a_given_pressure_viscosity_coefficient_is_no_estimate():
     assert not any("in place of the estimate" in text for text in exact)
 
 
+def test_a_range_is_recommended_where_the_interval_will_contain_it():
+    """The interval of a run in time contains no range of the coefficient."""
+    of_runs = [unmodelled_effects(ROLLER, SQ, 1.0, run=run) for run in (None, ROLLER)]
+    (at_point, in_time) = (next(each.recommendation for each in of_run if each.is_of_alpha) for of_run in of_runs)
+    assert "[value, low, high]" in at_point and "[value, low, high]" not in in_time
+
+
 def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_and_what_to_do():
     """Nothing is said of a given coefficient."""
     text = " ".join(describe_scene(ROLLER).split())

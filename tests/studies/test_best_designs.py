@@ -272,7 +272,8 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
         assert "that of measured oils changes f by at most" in point.not_in_interval
         (changes[number],) = (effect.change for effect in point.unmodelled_effects if effect.is_of_alpha)
     (line,) = (line for line in study_answer.answer_lines(lubfric.study(plan)) if "measured oils" in line)
-    assert "At all points, by closed forms" in line and line.endswith("give lubricant.pressure_viscosity_coefficient.")
+    assert "At all points, by closed forms" in line
+    assert "give lubricant.pressure_viscosity_coefficient = [value, low, high]" in line
     stated = re.search(r"by at most about (\S+) % either way \(at point (\d)\);", line)
     worst = max((1, 2), key=lambda number: changes[number])
     assert int(stated[2]) == worst

@@ -676,9 +676,9 @@ def test_the_status_of_a_fit_names_a_large_model_form_error():
         assert kind == expected and ("up to 80 %, is in no interval" in text) == (kind == "inexact")
 
 
-@pytest.mark.parametrize("alpha", [None, 2e-8])
+@pytest.mark.parametrize("alpha", [None, [2e-8, 1.5e-8, 2.2e-8]])
 def test_a_fit_names_the_error_of_an_estimated_pressure_viscosity_coefficient(alpha):
-    """In status, answer and summary; nothing where the coefficient is given."""
+    """In status, answer and summary; where the coefficient is given as a range, that this is not in the intervals."""
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "60 °C", "viscosity": None}
     scene = SCENE.with_(lubricant=oil | {"pressure_viscosity_coefficient": alpha})
     speeds = np.array([0.003, 0.03, 0.3])
@@ -691,3 +691,5 @@ def test_a_fit_names_the_error_of_an_estimated_pressure_viscosity_coefficient(al
         any("give lubricant.pressure_viscosity_coefficient" in text for text in result.not_in_intervals) == is_estimate
     )
     assert ("which is an estimate and moves the fitted parameters" in result.explain()) == is_estimate
+    of_range = "not in the intervals: the ranges of lubricant.pressure_viscosity_coefficient"
+    assert (of_range in result.not_in_intervals) != is_estimate

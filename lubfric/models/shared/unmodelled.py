@@ -88,7 +88,12 @@ LEAST_ASPERITY_PART = 0.1
 LOAD_RATIO_BY_ALPHA = -1.0
 
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
-GIVE_ALPHA = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this change"
+GIVE_ALPHA = (
+    "give lubricant.pressure_viscosity_coefficient = [value, low, high] to have the change solved and in the interval"
+)
+
+# The same of a run in time, whose interval contains no such range.
+GIVE_ALPHA_IN_TIME = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this change"
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
@@ -214,7 +219,7 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
     others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
     return (
         f"The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. {where}{others}, by closed forms, "
-        f"that of measured oils changes f by {largest}; give lubricant.pressure_viscosity_coefficient."
+        f"that of measured oils changes f by {largest}; {GIVE_ALPHA}."
     )
 
 
@@ -237,7 +242,7 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
         return ""
     return (
         "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed forms, that of "
-        f"measured oils changes f by {at_most_in_words(largest)}; give lubricant.pressure_viscosity_coefficient"
+        f"measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
     )
 
 
@@ -252,7 +257,8 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
         f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the interval of f does "
         f"not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {worded(peak_hertz_pressure(scene), 'Pa')} it may change "
         f"f by {at_most_in_words(largest)}, as long as the asperity load ratio is not known; the report states what remains for "
-        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to remove it"
+        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to remove it, or "
+        "[value, low, high] to have the change solved and in the interval"
     )
 
 
@@ -334,8 +340,15 @@ def _all_effects(
     of_boundary, f = friction_parts or _parts(scene, sq, speed)
     effects: list[UnmodelledEffect] = []
     if speed != 0 and f > 0:
-        of_motion = way_to_motion or stated_way_to_motion(with_ranges)
-        effects = _of_film(scene, sq, speed, friction_parts, includes_motion=includes_motion, way_to_motion=of_motion)
+        effects = _of_film(
+            scene,
+            sq,
+            speed,
+            friction_parts,
+            is_in_time=run is not None,
+            includes_motion=includes_motion,
+            way_to_motion=way_to_motion or stated_way_to_motion(with_ranges),
+        )
     is_stated = (
         any("boundary_friction" in name for name, *_ in with_ranges.ranges)
         or with_ranges.bodies.boundary_friction_table is not None
@@ -380,6 +393,7 @@ def _of_film(
     speed: float,
     friction_parts: tuple[float, float] | None,
     *,
+    is_in_time: bool,
     includes_motion: bool,
     way_to_motion: str,
 ) -> list[UnmodelledEffect]:
@@ -429,7 +443,7 @@ def _of_film(
                     "in place of the estimate"
                 ),
                 change=max(by_alpha),
-                recommendation=GIVE_ALPHA,
+                recommendation=GIVE_ALPHA_IN_TIME if is_in_time else GIVE_ALPHA,
                 is_of_alpha=True,
             )
         )
