@@ -468,7 +468,7 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     plot_passing(tmp_path / "time.png", strip)
     shown = list(islice(moments(travelling(laid(surface), [RoughBody(surface, 0.225)]), CELL / 0.225), 3))
     plot_moments(tmp_path / "moments.png", shown)
-    animate_moments(tmp_path / "moving.gif", shown)
+    animate_moments(tmp_path / "moving.gif", shown[1:])
     assert (tmp_path / "moving.gif").read_bytes()[:4] == b"GIF8"
     assert min(p.stat().st_size for p in tmp_path.iterdir()) > 10_000
 

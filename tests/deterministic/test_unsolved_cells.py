@@ -40,7 +40,7 @@ def test_pieces_of_too_many_cells_leave_the_answer_of_the_strips(monkeypatch, so
     limited = lubfric.friction(SCENE, SPEED)
     assert limited.decision.model == solved.decision.model == "deterministic"
     assert abs(limited.coefficient / solved.coefficient - 1) < limited.uncertainty.numerical
-    assert limited.uncertainty.numerical > 1.5 * solved.uncertainty.numerical
+    assert limited.uncertainty.numerical > 10 * solved.uncertainty.numerical  # without the factor of 2: 7 times
     assert "shorter cells of a piece of the surface would be more than" in limited.uncertainty.text
     assert "the largest number that is solved" not in solved.uncertainty.text
     (violation,) = (each for each in limited.validity if each.what == "estimated numerical error of f")

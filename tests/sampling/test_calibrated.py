@@ -213,7 +213,8 @@ def test_intervals_hold_the_scatter_of_other_samples():
 
 def test_the_ends_of_an_input_are_those_of_the_quick_model():
     """A range of the Eyring stress moves f by as much as a solve at its ends does."""
-    scene = HEAVIER.with_(numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1}, contact=SMALL)
+    long = {"surface": {"correlation_length": 16e-6}, "contact": {"shape": (48, 32), "spacing": 3.6e-6}}
+    scene = HEAVIER.with_(numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1}, **long)
     ends = (3e6, 1e7)
     ranged = lubfric.friction(scene.with_(lubricant={"eyring_stress": [*ends]}), 0.3)
     solved = [lubfric.friction(scene.with_(lubricant={"eyring_stress": end}), 0.3).coefficient for end in ends]
@@ -692,7 +693,7 @@ def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
     error_of = error_models()["rest"].rolling_error
     assert error_of(-1e-4, 3e-4) == pytest.approx(2 * error_of(1e-4, 0.0)) and error_of(1e-4, 0.0) > 0
     scene = HEAVIER.with_(numerics={"model": "quick"} | LOOSE)
-    surface = patch((24, 16), (3.6e-6, 4e-6))
+    surface = patch((16, 12), (3.6e-6, 4e-6))
     load = scene.bodies.load
     for ratio in (0.0, -1e-4):
         prepared = lubfric.prepare(scene.with_(motion={"slide_roll_ratio": ratio}), surface)
@@ -775,7 +776,12 @@ def test_a_film_thinner_than_the_boundary_film_that_is_not_given_is_reported():
 
 def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give_off_the_lubricant(monkeypatch):
     """Two per cent, as its note says: twice what half of that gap changes (`test_deterministic_point`)."""
-    scene = PAPER.with_(bodies={"load": 200.0}, numerics={"model": "quick"} | LOOSE)
+    scene = PAPER.with_(
+        bodies={"load": 200.0},
+        surface={"correlation_length": 16e-6},
+        contact={"shape": (48, 32), "spacing": 3.6e-6},
+        numerics={"model": "quick"} | LOOSE,
+    )
     result = lubfric.friction(scene, 1e-4)
     (note,) = (entry for entry in result.validity if entry.assumption == Assumption.LUBRICANT_PASSES)
     assert note.is_note and "the interval of f includes an error of 2 % for this" in note.consequence

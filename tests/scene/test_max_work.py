@@ -13,7 +13,7 @@ from lubfric.errors import ConvergenceError, WorkLimitError
 from lubfric.models.load_sharing import PaperModel
 from lubfric.models.quick import quick_model
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1, "tolerance": 0.05})
+PAPER = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.3, "tolerance": 0.05})
 CHEAP = PAPER.with_(numerics={"model": "paper", "tolerance": 0.2, "sampling_tolerance": 0.5})
 SPEED = 0.03
 

@@ -17,6 +17,7 @@ PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 IN_TIME = PAPER.with_(
     motion={"entrainment_speed": 0.03},
     surface={"sq": 30e-9},
+    contact={"shape": (48, 32), "spacing": 1.8e-6},
     transient=Transient(duration=4e-3, outputs=8, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=125.0)),
     numerics={"sampling_tolerance": 0.5},
 )
