@@ -189,7 +189,8 @@ def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
         power = math.floor(math.log10(abs(number)))
         text = f"{number / 10.0**power:.{digits}g}·10{str(power).translate(SUPERSCRIPTS)}"
     else:
-        text = f"{number:.{max(digits, 1 + math.floor(math.log10(abs(number))))}g}" if number else "0"
+        rounded = f"{number:.{max(digits, 1 + math.floor(math.log10(abs(number))))}g}" if number else "0"
+        text = f"{float(rounded):g}"  # 999.6 is rounded to 1000, not 1e+03
     return f"{text} {printed(name)}".rstrip()
 
 

@@ -889,7 +889,11 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
             f", or {low:g} for one value" if count == 1 else ""
         )
         raise InputError(f" {text} has {count:g} values", option, recommendation=recommendation)
-    values: list[float] = (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
+    if linear:
+        return [
+            float(f"{value:.12g}") for value in np.linspace(low, high, int(count))
+        ]  # 0.05, not 0.049999999999999996
+    values: list[float] = np.geomspace(low, high, int(count)).tolist()
     return values
 
 

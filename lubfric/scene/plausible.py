@@ -46,6 +46,8 @@ def _rows(name: str) -> dict[str, list[Any]]:
 # convention of sliding: slips are 0.1 to 200 %, ratios 0.001 to 2. Not measured: a convention.
 SMALL_PERCENT = 0.1
 LARGE_RATIO = 1.0
+# Digits of a slide-roll ratio that a user writes, at most: a quotient of two speeds has more. A choice.
+DIGITS_OF_A_RATIO = 3
 MOST_RATIO = 2.0  # simple sliding, which is usual
 # Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
 # smaller one may have been written with a unit, which must not be questioned.
@@ -284,6 +286,9 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
             f"did you mean slide_roll_ratio = {most:g}, which is {100 * most:g} %? "
             f'If not, write slip_percent = "{most:g} %"'
         )
+    follows_from_speeds = any(float(f"{size:.{DIGITS_OF_A_RATIO}g}") != size for size in sizes)
+    if follows_from_speeds:
+        return ""
     if key == SLIDE_ROLL_RATIO_KEY and min(sizes) >= LARGE_RATIO and max(sizes) < MOST_RATIO:
         least = min(sizes)
         return f'did you mean slip_percent = {least:g}? If not, write slide_roll_ratio = "{100 * least:g} %"'

@@ -357,14 +357,18 @@ def errors_in_time(
 
 def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray) -> np.ndarray:
     """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known
-    is not in it; NaN where sampling is not known, and at rest."""
+    is not in it; NaN where sampling is not known, and at rest. Friction resists the sliding, so only the rolling part makes the lower
+    end negative."""
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
     allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
     most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
-    ends = np.stack([np.maximum(f - below, -most), np.minimum(f + above, most)], axis=1)
+    rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
+    by_rolling = np.minimum(np.minimum(OF_ROLLING * np.nan_to_num(rolling), f), 0.0)
+    least = np.where(columns["sliding_speed"] != 0, by_rolling, -most)
+    ends = np.stack([np.maximum(f - below, least), np.minimum(f + above, most)], axis=1)
     return np.where(unknown[:, None], math.nan, ends)
 
 

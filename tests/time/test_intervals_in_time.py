@@ -193,6 +193,7 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
     columns = dict.fromkeys(held.columns, np.zeros(4)) | {
         "time": np.arange(4.0),
         "coefficient": f,
+        "load": np.ones(4),
         "entrainment_speed": np.array([1.0, 1.0, 1.0, 0.0]),
         "model_error_low": np.array([0.5, 0.4, 0.3, np.nan]),
         "model_error_high": np.array([0.1, 0.2, 0.6, np.nan]),
@@ -204,6 +205,24 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
     assert mean.coefficient * (1 + above) == pytest.approx(mean.interval[1])
     assert below * 3.0 * mean.coefficient == pytest.approx(weight @ [0.02, 0.024, 0.03])
     assert mean.budget["sampling"] == (0.0, 0.0)
+
+
+def test_friction_drives_no_sliding_but_by_its_rolling_part(held):
+    """A model-form error of 300 %: the lower end is 0, or below it by a rolling part that points the way of the sliding."""
+    count = 3
+    columns = dict.fromkeys(held.columns, np.zeros(count)) | {
+        "time": np.arange(float(count)),
+        "coefficient": np.full(count, 0.01),
+        "load": np.full(count, 100.0),
+        "entrainment_speed": np.ones(count),
+        "sliding_speed": np.array([1.0, 1.0, -1.0]),
+        "rolling_force": np.array([0.2, -0.2, 0.2]),
+        "model_error_low": np.full(count, 3.0),
+        "model_error_high": np.zeros(count),
+    }
+    low = replace(held, columns=columns, inputs=0.0, requested=()).uncertainty.interval[:, 0]
+    assert low[0] == 0.0
+    assert low[1] == low[2] and -0.02 < low[1] < -0.002  # eight times the rolling part, at most
 
 
 def test_the_work_of_sliding_is_the_weighted_mean_of_f_times_load_and_distance(held):

@@ -178,7 +178,8 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterat
     film is smooth.
 
     No oil is liquid above 10 GPa. This is severe where the film is smooth or the peak Hertz pressure is above it, and a warning
-    where asperities that do not yield press the film that much.
+    where asperities that do not yield press the film that much. Above the limit of the viscosity law it is a warning where the
+    peak Hertz pressure is, and no limiting stress bounds the friction; local peaks of a rough film are small parts of it.
     """
     limit = OF_VISCOSITY_LAW.get(scene.lubricant.viscosity_law, math.inf)
     if peak > NO_LIQUID and place and peak_hertz_pressure(scene) <= NO_LIQUID:
@@ -196,6 +197,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterat
             severe=True,
         )
     elif peak > limit:
+        hertz_peak = peak_hertz_pressure(scene)
         (facts, advice) = _spike(scene, peak, limit, place)
         (bounds, more) = _bounds_of_stress(scene)
         extrapolated = f"the viscosity law ({scene.lubricant.viscosity_law}) is extrapolated there"
@@ -207,7 +209,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterat
             unit="GPa",
             consequence="; ".join((extrapolated, *facts, *bounds)),
             recommendation="; ".join((*advice, *more)),
-            is_note=not more,
+            is_note=bool(place and hertz_peak <= limit) or not more,
         )
 
 
