@@ -199,7 +199,7 @@ def test_a_run_removes_all_that_another_kind_of_run_wrote(tmp_path):
         assert main([*command(kind, tmp_path, "--out", str(out)), *options]) == 0
         names = {path.name for path in out.iterdir() if not path.name.startswith(".")}
         assert names == set(json.loads((out / "result.json").read_text())["files"])
-        assert main(["plot", str(out), "--format", "pdf"]) == 0
+        assert main(["plot", str(out), "--format", "svg"]) == 0
 
 
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"stribeck.csv": 3}', "[" * 9999, '{"../m.csv": ["0"]}'])

@@ -17,7 +17,7 @@ import lubfric
 SPEEDS = (0.002, 0.05, 0.01)
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 LAW = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
-LINE = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1})
+LINE = paper_scene(contact={"shape": (48, 48), "spacing": 1.8e-6}, numerics={"sampling_tolerance": 0.1})
 LOOSE = {"sampling_tolerance": 0.3, "model_tolerance": 0.3}
 PATCH = LINE.with_(numerics={"sampling": "patch"})
 FLAT = lubfric.load_scene("flat").with_(

@@ -19,7 +19,7 @@ from lubfric.output.history_answer import history_answer
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.time import PARTS_NOT_IN_TIME
 
-SMALL = {"shape": (96, 96), "spacing": 0.9e-6}
+SMALL = {"shape": (48, 48), "spacing": 1.8e-6}
 # A coarse film, where its numbers are not the matter.
 LOOSE = {"tolerance": 0.05}
 PATCH = LOOSE | {"sampling": "patch"}
