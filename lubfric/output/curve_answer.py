@@ -70,9 +70,11 @@ def curve_answer(
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
     sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
     if math.isfinite(point.lambda_ratio):
+        sq = point.full_load_film / point.lambda_ratio if point.lambda_ratio > 0 else math.nan
+        over = f" over a Sq of {plain_number(sq, 'm')}" if math.isfinite(sq) else ""
         sentences[-1] += (
             f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio "
-            f"of {point.lambda_ratio:.3g}."
+            f"of {point.lambda_ratio:.3g}{over}."
         )
         if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
             sentences[-1] += (

@@ -60,10 +60,12 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         if run_model_of(scene).solves_rough_film
         else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
     )
-    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls(result.columns)]
+    with_ratio = np.isfinite(result.lambda_ratio) & rolls(result.columns)
+    ratio = result.lambda_ratio[with_ratio]
     if ratio.size:
+        sq = plain_number(float(np.median(result.full_load_film[with_ratio] / ratio)), "m")
         sentences.append(
-            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over Sq) lies "
+            f"At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over a Sq of {sq}) lies "
             f"between {number_or_dash(float(ratio.min()))} and "
             f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )
