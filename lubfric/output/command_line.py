@@ -153,7 +153,7 @@ def info(arguments: Namespace) -> None:
     """Say what a scene is. Then raise what 'lubfric run' would, where it is certain to refuse the scene."""
     from ..models.shared import refused, violations_by_unusual_inputs
     from .describe import described_scene
-    from .run_curve import parse_ratios, parse_speeds
+    from .swept_values import parse_ratios, parse_speeds
 
     scene = scene_of(arguments)
     speeds = arguments.speeds

@@ -14,7 +14,7 @@ from .._base import figures, read_table, validate
 from ..errors import InputError
 from .commands import read_record
 from .picture_options import PictureOptions
-from .run_curve import _picture_options, _write_picture, measured_of, plot_again
+from .plot_again import measured_of, picture_options, plot_again, write_picture
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
@@ -52,10 +52,10 @@ def plot(arguments: Namespace) -> None:
     draw = partial(
         plot_curves,
         curves=dict(zip(labels or names, (columns for _, columns in curves))),
-        options=_picture_options(of_first, "stribeck"),
+        options=picture_options(of_first, "stribeck"),
         measured=measured_of(of_first, "stribeck"),
     )
-    _write_picture(of_first, TOGETHER, draw)
+    write_picture(of_first, TOGETHER, draw)
 
 
 def _curve(folder: Path) -> tuple[str, Columns]:

@@ -40,8 +40,8 @@ from .commands import (
 )
 from .fit_picture import drawn_record, plot_fit
 from .fit_report import fit_page
+from .plot_again import read_measured_of
 from .progress import ProgressLine
-from .run_curve import read_measured_of
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_answer import answer_lines, numbered_point, planned_point_in_words
 from .study_pictures import STUDY_PICTURE, plot_study

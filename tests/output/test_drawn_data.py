@@ -150,7 +150,7 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
         requested.append(arguments[-1])
         path.write_bytes(b"a picture")
 
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", draw)
+    monkeypatch.setattr("lubfric.output.curve_picture.plot_stribeck", draw)
     scene = tmp_path / "s.toml"
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
     out = str(tmp_path / "out")
@@ -183,7 +183,7 @@ def test_lines_of_a_curve_are_omitted(figures, tmp_path, monkeypatch):
     """By their names in the key, of both kinds of curve."""
     options = []
     monkeypatch.setattr(
-        "lubfric.output.run_curve._write_picture", lambda *each: options.append(each[-1].keywords["options"])
+        "lubfric.output.plot_again.write_picture", lambda *each: options.append(each[-1].keywords["options"])
     )
     scene = tmp_path / "s.toml"
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
@@ -473,7 +473,7 @@ def kept(solved, tmp_path):
 @pytest.mark.parametrize("width", ["85 mm", "120 mm", "180 mm"])
 def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypatch, width):
     """With the same numbers, at the width of a journal's column, and all texts within it."""
-    monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, draw: draw(name) or b"a picture")
+    monkeypatch.setattr("lubfric.output.plot_again.made", lambda name, draw: draw(name) or b"a picture")
     assert main(["plot", str(kept), "--contact", "0.01", "--width", width, "--format", "pdf"]) == 0
     assert (kept / "contact_at_0.01.pdf").read_bytes() == b"a picture"
     plot_contact("x.png", drawn_contact(*solved))

@@ -262,7 +262,7 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
         raise ZeroDivisionError("no picture")
 
     with monkeypatch.context() as patched:
-        patched.setattr("lubfric.output.run_curve.plot_stribeck", broken)
+        patched.setattr("lubfric.output.curve_picture.plot_stribeck", broken)
         assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert said.startswith("lubfric: stribeck.png was not drawn (ZeroDivisionError") and "all else is in" in said

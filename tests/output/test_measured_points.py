@@ -55,7 +55,7 @@ def test_a_run_draws_the_deviations_that_its_command_names(options, label, devia
     def draw(path, columns, title, violations, measured, *_, **__):
         path.write_text(json.dumps([measured.legend, *measured.deviation]))
 
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", draw)
+    monkeypatch.setattr("lubfric.output.curve_picture.plot_stribeck", draw)
     put_back(monkeypatch.setattr)
     numerics = {"sampling": "patch", "model": "paper", "tolerance": 0.2}
     scene = paper_scene(contact={"shape": (32, 48), "spacing": 1.8e-6}, numerics=numerics)

@@ -13,7 +13,7 @@ from scene_text import paper_scene
 from small_study import violations_at
 
 import lubfric
-from lubfric.output import pictures, run_curve, study_pictures
+from lubfric.output import curve_picture, pictures, study_pictures
 from lubfric.output.picture_options import PictureOptions
 from lubfric.studies import StudyResult, main_effects
 
@@ -264,7 +264,7 @@ def test_a_curve_fits_a_column_and_a_page(tmp_path, drawn, width, over):
         [SCENE.name, *(f"{basis} on 295 solved cases (3 of 5 points)" for basis in ("long cells", "model"))]
     )
     points = [{"validity": [STARVED] if i == 2 else []} for i in range(5)]
-    run_curve._plot(tmp_path / "x.png", columns, title, points, options=PictureOptions(width=width))
+    curve_picture.draw_curve(tmp_path / "x.png", columns, title, points, options=PictureOptions(width=width))
     (figure,) = drawn
     assert faults(figure) == []
     assert figure.get_figheight() <= (COLUMN_HEIGHT if width == WIDTHS["column"] else 8.0)

@@ -9,7 +9,7 @@ from matplotlib.image import imread
 
 import lubfric
 from lubfric.estimate import FrictionResult
-from lubfric.output import curve_answer, run_curve
+from lubfric.output import curve_answer, curve_picture
 from lubfric.output.pictures import plot_surface
 
 PAPER = lubfric.load_scene("paper")
@@ -64,15 +64,15 @@ def test_a_curve_by_two_models_says_which_points_are_by_which(monkeypatch):
     """Of a picture in its title, of a report in a sentence."""
     names = {"long cells": [0.0, 0.5], "load-sharing model": [0.1, 0.2, 0.3]}
     ratios = sorted((ratio, basis) for basis, values in names.items() for ratio in values)
-    title = run_curve._title("rig", [{"basis": basis} for _, basis in ratios])
+    title = curve_picture.title_of_curve("rig", [{"basis": basis} for _, basis in ratios])
     assert title.splitlines() == ["rig", "load-sharing model (3 of 5 points)", "long cells (2 of 5 points)"]
     others = [{"basis": "", "model": "deterministic"}] * 4
-    both = run_curve._title("rig", [*others, {"basis": "long cells", "model": "quick"}])
+    both = curve_picture.title_of_curve("rig", [*others, {"basis": "long cells", "model": "quick"}])
     assert both.splitlines() == ["rig", "deterministic model (4 of 5 points)", "long cells (1 of 5 points)"]
     titles: list[str] = []
-    monkeypatch.setattr(run_curve, "plot_traction", lambda path, columns, title, *_, **__: titles.append(title))
+    monkeypatch.setattr(curve_picture, "plot_traction", lambda path, columns, title, *_, **__: titles.append(title))
     columns = {name: np.ones(5) for name in ("ratio", "speed", "coefficient")}
-    run_curve._plot(SimpleNamespace(), columns, title, [])
+    curve_picture.draw_curve(SimpleNamespace(), columns, title, [])
     assert titles[0].splitlines() == ["rig, U = 1 m/s", *title.splitlines()[1:]]
     points = [SimpleNamespace(decision=SimpleNamespace(basis=basis, model="quick")) for _, basis in ratios]
     curve = SimpleNamespace(

@@ -9,7 +9,7 @@ import scene_text
 from pictures import STAND_IN
 
 import lubfric
-from lubfric.output import commands, main, run_curve, run_study
+from lubfric.output import commands, curve_picture, main, run_curve, run_study
 
 SCENE = scene_text.paper_scene(
     contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"}, motion={"speeds": [0.03, 0.1]}
@@ -45,7 +45,7 @@ WRITERS = {
     ("studies", "csv_bytes"): "stribeck.csv",
     ("run_curve", "fields_bytes"): "fields.npz",
     ("run_curve", "plot_contact"): "contact.png",
-    ("run_curve", "_plot"): "stribeck.png",
+    ("run_curve", "draw_curve"): "stribeck.png",
     ("run_curve", "read_table"): "stribeck.png",
     ("run_curve", "vtk_bytes"): "contact_0.vtk",
     ("run_curve", "_law"): "",
@@ -61,7 +61,7 @@ MODULES = {"studies": lubfric.studies, "run_curve": run_curve, "commands": comma
 
 @pytest.mark.parametrize("module, name", WRITERS)
 def test_each_writer_of_a_curve_may_fail(module, name, scene_file, whole, tmp_path, capsys, monkeypatch, drawn):
-    for home, plot in ((run_curve, "plot_stribeck"), (run_curve, "plot_contact"), (commands, "plot_surface")):
+    for home, plot in ((curve_picture, "plot_stribeck"), (run_curve, "plot_contact"), (commands, "plot_surface")):
         monkeypatch.setattr(home, plot, lambda path, *_: path.write_bytes(STAND_IN))
     monkeypatch.setattr(MODULES[module], name, broken)
     out = tmp_path / "out"

@@ -189,9 +189,9 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     assert "is in the model-form error, not in the numerical one" in page.lower()
     titles: list[str] = []
     monkeypatch.setattr(
-        "lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_, **__: titles.append(title)
+        "lubfric.output.curve_picture.plot_stribeck", lambda path, columns, title, *_, **__: titles.append(title)
     )
-    monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")
+    monkeypatch.setattr("lubfric.output.plot_again.made", lambda name, make: make(tmp_path / name) or b"")
     assert main(["plot", str(tmp_path / "out")]) == 0
     assert [title.splitlines() for title in titles] == [[scene.name, basis]]
 

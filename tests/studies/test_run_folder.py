@@ -15,7 +15,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric._base import read_table
-from lubfric.output import main, run_curve
+from lubfric.output import curve_picture, main
 from lubfric.studies import Store
 
 ROOT = Path(__file__).parents[2]
@@ -183,8 +183,8 @@ def test_an_interrupted_traction_curve_is_drawn_and_serves_a_run_at_other_ratios
     assert main(["run", written(tmp_path), RATIOS, "--out", str(out)]) == 130
     assert "3 of 5 points are kept in" in " ".join(capsys.readouterr().err.split())
     shown = []
-    real = run_curve.plot_traction
-    monkeypatch.setattr(run_curve, "plot_traction", lambda *a, **b: (shown.append(a), real(*a, **b)))
+    real = curve_picture.plot_traction
+    monkeypatch.setattr(curve_picture, "plot_traction", lambda *a, **b: (shown.append(a), real(*a, **b)))
     assert main(["plot", str(out)]) == 0
     assert "3 of 5 slide-roll ratios are solved" in " ".join(capsys.readouterr().err.split())
     (_, columns, title, *_), *_ = shown
@@ -379,8 +379,8 @@ def test_an_interrupted_run_is_drawn_as_far_as_it_is(tmp_path, monkeypatch, caps
     assert main(["run", written(tmp_path), "--out", str(out)]) == 130
     before = sorted(out.rglob("*.bin"))
     shown = []
-    real = run_curve.plot_stribeck
-    monkeypatch.setattr(run_curve, "plot_stribeck", lambda *a, **b: (shown.append(a), real(*a, **b)))
+    real = curve_picture.plot_stribeck
+    monkeypatch.setattr(curve_picture, "plot_stribeck", lambda *a, **b: (shown.append(a), real(*a, **b)))
     assert main(["plot", str(out)]) == 0
     assert "the run is not finished: 3 of 5 speeds are solved; the picture has these" in capsys.readouterr().err
     (_, columns, title, *_), *_ = shown

@@ -155,7 +155,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch, draws):
     (out / "traction.png").unlink()
     assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
     with monkeypatch.context() as full:
-        full.setattr("lubfric.output.run_curve.plot_traction", full_disk)
+        full.setattr("lubfric.output.curve_picture.plot_traction", full_disk)
         assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
     assert "is not for a traction curve; give --ratio" in capsys.readouterr().err

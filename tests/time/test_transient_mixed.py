@@ -269,7 +269,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
         Path(path).write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("lubfric.output.run_curve.plot_history", full_disk)
+    monkeypatch.setattr("lubfric.output.plot_again.plot_history", full_disk)
     assert main(["plot", str(tmp_path / "out")]) != 0
     assert (tmp_path / "out" / "history.png").read_bytes() == drawn
     assert {p.name for p in (tmp_path / "out").iterdir()} == names

@@ -1,0 +1,123 @@
+"""The picture of a curve from its table and its record."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import studies
+from .._base import figures
+from ..errors import InputError
+from ..models.shared import Violation, effect_in_words
+from ..quantities import NUMBERS, counted
+from .curve_answer import model_in_words
+from .describe import is_among
+from .picture_options import PictureOptions
+from .pictures import plot_stribeck, plot_traction
+
+if TYPE_CHECKING:
+    from .._base.tables import Columns
+
+
+def title_of_curve(name: str, points: list[dict[str, Any]]) -> str:
+    """Return the title of the picture of a curve: the ``name`` of the scene, and by which models its ``points`` (of its
+    record) are, the most frequent first. The band of the picture shows how large their errors are."""
+    solved = [point for point in points if "error" not in point]
+    stated = Counter(filter(None, map(_model_of_record, solved)))
+    lines = [
+        basis if count == len(solved) else f"{basis} ({count} of {counted(len(solved), 'points')})"
+        for basis, count in stated.most_common()
+    ]
+    return "\n".join([name, *lines])
+
+
+def _model_of_record(point: dict[str, Any]) -> str:
+    """Return by which model a ``point`` of a record is, as `model_in_words`; "" in a record that does not have it."""
+    model = point.get("model")
+    return model_in_words(point.get("basis") or "", model or "") if model or point.get("basis") else ""
+
+
+def operating_point_of_record(record: dict[str, Any]) -> float:
+    """Return the scene's own speed [m/s] or slide-roll ratio that a ``record`` has; NaN where it has none."""
+    value = record.get("operating_point")
+    return float(value) if isinstance(value, (int, float)) else math.nan
+
+
+def drawable(columns: Columns) -> np.ndarray:
+    """Return which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
+    drawable: np.ndarray = np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
+    return drawable
+
+
+def points_of_record(source: Path, columns: Columns, record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
+    points: list[dict[str, Any]] = record.get("points", [])
+    count = columns["coefficient"].size
+    if len(points) != count:
+        raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
+    if not drawable(columns).any():
+        first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
+        raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
+    return points
+
+
+def table_of(curve: studies.CurveResult) -> str:
+    """Return the name of the table and the picture of a ``curve``."""
+    return "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
+
+
+def record_of_point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
+    """Return the record of a point: its numbers, the error of f as text too, and the errors of the other numbers; or
+    why there are none."""
+    name = curve.SWEPT[0]
+    point = curve.points[index]
+    swept = {
+        name: getattr(curve, name)[index],
+        "validity": [asdict(violation) for violation in curve.violations(index)],
+    }
+    if point is None:
+        return swept | {"error": str(curve.errors[index])}
+    more = {
+        "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+        "errors": asdict(point.errors),
+        "report": point.report.as_dict(),
+        "unmodelled_effects": [effect_in_words(effect) for effect in point.unmodelled_effects],
+        "basis": point.decision.basis,
+        "model": point.decision.model,
+    }
+    return {number: getattr(point, number) for number in NUMBERS} | swept | more
+
+
+def draw_curve(
+    path: Path,
+    columns: Columns,
+    title: str,
+    points: list[dict[str, Any]],
+    measured: Any = None,
+    options: PictureOptions = PictureOptions(),
+    operating_point: float = math.nan,
+) -> None:
+    """Draw the picture of the table of a curve; ``points``: those of its record; ``operating_point``: the scene's own
+    speed [m/s] or slide-roll ratio."""
+    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
+    known = [
+        [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
+    ]
+    violations = [[Violation(**unknown | violation) for violation in each] for each in known]
+    title = figures.plain_words(title)
+    if "ratio" in columns:
+        (first, *others) = title.splitlines()
+        speed = columns["speed"][np.isfinite(columns["coefficient"])][0]
+        title = "\n".join([f"{first}, U = {speed:.4g} m/s", *others])
+    if options.is_narrow:  # what the answers rest on is for the caption
+        title = title.splitlines()[0]
+    swept = columns["ratio" if "ratio" in columns else "speed"]
+    own = [value for value in swept[drawable(columns)].tolist() if is_among(value, [operating_point])]
+    plot = plot_traction if "ratio" in columns else plot_stribeck
+    marked = own[0] if own and swept.size > 1 else math.nan
+    plot(path, columns, title, violations, measured, options, operating_point=marked)
