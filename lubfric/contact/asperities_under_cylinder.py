@@ -12,8 +12,10 @@ Since only the contacts deform, the volume balance of Eq. (8) loses its deflecti
 Under a cylinder the contact load does not flatten the surface as a whole: its shape is that of the film.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -50,6 +52,10 @@ class AsperityContact(FieldsOnly, RoughContact):
     definition: str
     asperity_separation: str
     tolerance: float
+
+    def over_strip(self, half_width: float, before: float) -> AsperityContact:
+        """Its cells inside the strip are others."""
+        return replace(self, weight=area_weight("hertz", half_width, self.x, self.spacing[0]))
 
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None

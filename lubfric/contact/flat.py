@@ -4,7 +4,7 @@ independent asperities, for every speed and lubricant, under the film of the Her
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -321,6 +321,11 @@ class FlatContact(RoughContact):
             gap_error=gap_error,
             area_error=area_error,
         )
+
+    def over_strip(self, half_width: float, before: float) -> FlatContact:
+        """The load is spread over another strip."""
+        ratio = half_width / before
+        return replace(self, x=ratio * self.x, area=ratio * self.area, columns=ratio * self.columns)
 
     @property
     def name(self) -> str:

@@ -37,6 +37,10 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
     hardness: float | None
     tolerance: float
 
+    def over_strip(self, half_width: float, before: float) -> HalfSpaceContact:
+        """Its cells inside the strip are others."""
+        return replace(self, weight=area_weight("hertz", half_width, self.x, self.spacing[0]))
+
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
     ) -> ContactState:

@@ -77,6 +77,10 @@ class RoughContact(ABC):
         ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be solved.
         """
 
+    @abstractmethod
+    def over_strip(self, half_width: float, before: float) -> RoughContact:
+        """Return the same contact where the area A is the Hertz strip of ``half_width`` [m], in place of that of ``before`` [m]."""
+
     @property
     def capacity(self) -> float:
         """Return the largest load [N] that it can carry under any film; infinite if `close` determines it."""

@@ -95,8 +95,8 @@ def _bodies(scene: Scene) -> list[str]:
         widths = [scene_at(scene, each).bodies.half_width for each in sampled_times(scene)]
         rows = [
             f"Hertz: peak pressure {_pressures_in_words(scene, low, high, time)}; half-width "
-            f"{range_in_words(min(widths), max(widths), 'm')}; area A of the volume balance: the strip of bodies.load "
-            f"and bodies.radius, of half-width {worded(b.half_width, 'm')}"
+            f"{range_in_words(min(widths), max(widths), 'm')}; area A of the volume balance: the Hertz strip "
+            "of the moment"
         ]
     if b.hardness is None:
         rows.append("asperity contacts: elastic (no bodies.hardness)")

@@ -1,6 +1,8 @@
 """One step of the load-sharing model in time: a film that remembers its past and the rough contact share the load of the
 moment."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
 
@@ -9,6 +11,7 @@ import numpy as np
 from .._base import may_stay_unsolved
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT
+from ..film import cubic, hertz
 from ..models.load_sharing import film_under, gap_per_film, volume_residual
 from ..models.shared import Prepared
 from ..scene import Scene
@@ -32,6 +35,37 @@ class ContactStep:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ContactOfMoment:
+    """The rough contact with the area A of a moment: the ``patch``, and the operator ``to_patch`` from the film H at the nodes
+    to the film [m] at its points."""
+
+    patch: RoughContact
+    to_patch: np.ndarray
+
+    @property
+    def mean_row(self) -> np.ndarray:
+        """The operator from H to the mean film [m] over A."""
+        mean_row: np.ndarray = self.patch.weight @ self.to_patch / self.patch.weight.sum()
+        return mean_row
+
+    def closed(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
+        """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
+        if film.min() <= 0.0 and load == 0.0:
+            return None
+        with may_stay_unsolved():
+            return self.patch.close(film, load, start)
+        return None
+
+
+def operator_to(setting: Setting, x: np.ndarray) -> np.ndarray:
+    """Return the operator from the film H at the nodes of ``setting`` to the film [m] at ``x`` [m]."""
+    unit_vectors = np.eye(setting.grid.n + 1)
+    places = x / setting.problem.length_unit
+    columns = [cubic(setting.grid.x, each, places) for each in unit_vectors]
+    return np.stack(columns, axis=1) * setting.problem.film_unit
+
+
+@dataclass(frozen=True, kw_only=True)
 class LoadSharingSolver:
     """Film and rough contact of a run by the load-sharing model.
 
@@ -40,7 +74,6 @@ class LoadSharingSolver:
     prepared : scene and strip of rough surface of the run
     setting : grid and units of the film
     to_patch : operator from the film H at the nodes to the film [m] at the points of the contact's patch
-    mean_row : operator from H to the mean film [m] over A
     tolerance : of the volume balance
     correlation_length : of the heights along y [m]
     area, plastic : factors from contact area and plastic area on the strip's cells to those on the scene's own cells;
@@ -50,7 +83,6 @@ class LoadSharingSolver:
     prepared: Prepared
     setting: Setting
     to_patch: np.ndarray
-    mean_row: np.ndarray
     tolerance: float
     correlation_length: float
     area: float = 1.0
@@ -61,10 +93,21 @@ class LoadSharingSolver:
         """The scene, with all that changes in time."""
         return self.prepared.scene
 
-    @property
-    def patch(self) -> RoughContact:
-        """The rough contact of the strip."""
-        return self.prepared.rough_contact
+    def contact_at(self, time: float) -> ContactOfMoment:
+        """Return the rough contact of the strip with the area A of ``time`` [s]: the Hertz strip of the load and the radius just
+        before it, or the complete patch, as in a steady contact."""
+        patch = self.prepared.rough_contact
+        bodies = self.scene.bodies
+        history = self.setting.line_history
+        load = history.load.before(time) / history.width
+        half_width = hertz.line_half_width(load, history.radius.before(time), history.e_prime)
+        if self.scene.contact.region == "box" or half_width == bodies.half_width:
+            return ContactOfMoment(patch=patch, to_patch=self.to_patch)
+        of_moment = patch.over_strip(half_width, bodies.half_width)
+        is_same = np.array_equal(of_moment.x, patch.x)
+        return ContactOfMoment(
+            patch=of_moment, to_patch=self.to_patch if is_same else operator_to(self.setting, of_moment.x)
+        )
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Return the relative size of a ``difference`` of films."""
@@ -76,6 +119,8 @@ class LoadSharingSolver:
         A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
         spring, and its gap gives the next spring (a secant in ln load), until the `volume_residual` is within the tolerance.
         """
+        contact = self.contact_at(time)
+        mean_row = contact.mean_row
         touch = past.load
         softness = past.softness
         seen = None
@@ -88,15 +133,15 @@ class LoadSharingSolver:
             if touch > 0.0:
                 film_in_gap = film_under(mean)
                 length = softness * (film_in_gap / gap_per_film(film_in_gap))
-                spring = Spring(self.mean_row, film_in_gap, touch / self.setting.load_unit, length)
+                spring = Spring(mean_row, film_in_gap, touch / self.setting.load_unit, length)
             solution = self.setting.solve(time, memory, z, spring)
             if solution.status != CONVERGED:
                 return solution
             load = solution.terms.spring[0] * self.setting.load_unit
             if spring is not None and load < LAST_TOUCH * total:
                 load = 0.0
-            film = self.to_patch @ solution.terms.H
-            contact_state = self._contact_at(film, load, state)
+            film = contact.to_patch @ solution.terms.H
+            contact_state = contact.closed(film, load, state)
             if contact_state is None:
                 break
             if load == 0.0:
@@ -110,7 +155,7 @@ class LoadSharingSolver:
                     continue
                 load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
                 touching_gap = contact_state.mean_gap
-                contact_state = self._contact_at(film, load, state)
+                contact_state = contact.closed(film, load, state)
                 if contact_state is None:
                     break
                 softness = max(touching_gap - contact_state.mean_gap, 1e-3 * touching_gap)
@@ -124,14 +169,6 @@ class LoadSharingSolver:
             state = contact_state
             z = solution.z
         return replace(solution, status=ITERATION_LIMIT)
-
-    def _contact_at(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
-        """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
-        if film.min() <= 0.0 and load == 0.0:
-            return None
-        with may_stay_unsolved():
-            return self.patch.close(film, load, start)
-        return None
 
 
 def _softness(old: float, seen: tuple[float, float] | None, load: float, contact_state: ContactState) -> float:

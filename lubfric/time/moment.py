@@ -39,7 +39,7 @@ from ..oil import shear_stress
 from ..scene import Scene
 from .film_equations import outside_shear
 from .film_setting import WET_PRESSURE
-from .load_sharing_solver import LoadSharingSolver
+from .load_sharing_solver import ContactOfMoment, LoadSharingSolver
 from .march import Progress, Step
 from .moment_columns import ends_of_film, motion_columns, sense_of, sense_of_friction
 from .scene_in_time import scene_at, sliding_at
@@ -143,7 +143,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         **friction.columns(scene.bodies.load),
         **of_film,
         **_contact_columns(model, solution, scene.bodies.load, of_film["film_load"]),
-        **_errors_of_f(model, scene, solution, friction, of_film),
+        **_errors_of_f(model, model.contact_at(now.time), scene, solution, friction, of_film),
         **full_load_numbers(scene, speed, float(model.prepared.surface.sq), friction.film_factor),
         **_mass(model, solution),
     }
@@ -206,14 +206,19 @@ def _contact_columns(model: LoadSharingSolver, solution: Step, load: float, film
         "mean_gap": state.mean_gap if touches else gap_under(state.mean_film),
         "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
         "plastic_area_fraction": plastic_area,
-        "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
+        "edge_load": model.prepared.rough_contact.on_the_ends(state) if touches else math.nan,
         "load_residual": (film_load + contact_step.load) / load - 1.0,
         "volume_residual": volume_residual(state) if touches else math.nan,
     }
 
 
 def _errors_of_f(
-    model: LoadSharingSolver, scene: Scene, solution: Step, friction: FrictionOfMoment, of_film: dict[str, float]
+    model: LoadSharingSolver,
+    contact: ContactOfMoment,
+    scene: Scene,
+    solution: Step,
+    friction: FrictionOfMoment,
+    of_film: dict[str, float],
 ) -> dict[str, float]:
     """Return the columns with the errors of f by the finite surface and by the model; ``of_film``: those of the film."""
     contact_step = solution.payload
@@ -226,12 +231,12 @@ def _errors_of_f(
         film_load=film_load,
         boundary=friction.boundary,
         viscous=shear.total,
-        softness=contact_softness(model, solution),
+        softness=contact_softness(contact, solution, scene.bodies.width),
         film_load_exponent=film_load_exponent(scene, film_load),
         mean_film=contact_step.state.mean_film,
     )
     sampling_error = moment_error(
-        cast(HalfSpaceContact, model.patch),
+        cast(HalfSpaceContact, contact.patch),
         contact_step.state,
         response,
         width=scene.bodies.width,
@@ -308,21 +313,20 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
     }
 
 
-def contact_softness(model: LoadSharingSolver, solution: Step) -> float:
+def contact_softness(contact: ContactOfMoment, solution: Step, width: float) -> float:
     """Return -dG/d ln F_C [m] of the contact in ``solution``, by `lubfric.models.load_sharing.slopes_of`; 0 without
     contact, NaN where the contact at another load was not solved. (`ContactStep.softness` is that with which a step began:
     its iterations need no more.)"""
     contact_step = solution.payload
     if contact_step.load <= 0:
         return 0.0
-    width = model.scene.bodies.width
     try:
         slopes = slopes_of(
-            model.patch,
+            contact.patch,
             contact_step.state,
             load=contact_step.load,
             width=width,
-            thickness=model.to_patch @ solution.terms.H,
+            thickness=contact.to_patch @ solution.terms.H,
         )
     except ConvergenceError:
         return math.nan

@@ -76,7 +76,7 @@ def check_load_sharing(base: Scene) -> None:
     if load.range(transient.duration)[1] > base.bodies.load * (1 + 1e-9):
         message = f" rises to {load.range(transient.duration)[1]:g} N"
         most = f"up to bodies.load = {base.bodies.load:g} N"
-        raise InputError(message, "transient.load", f"{most}, whose Hertz strip is the area A")
+        raise InputError(message, "transient.load", f"{most}, for which the surface is long enough")
     for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
     check_start(base)
@@ -120,7 +120,8 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
 
 
 def _untouched(model: TransientLoadSharing, film: Step) -> Step:
-    state = model.patch.close(model.to_patch @ film.terms.H, 0.0)
+    contact = model.contact_at(0.0)
+    state = contact.patch.close(contact.to_patch @ film.terms.H, 0.0)
     return replace(film, payload=ContactStep(0.0, state, max(START_SOFTNESS * state.mean_gap, 1e-12)))
 
 
@@ -140,17 +141,18 @@ def _resting(model: TransientLoadSharing) -> Step:
     """Return the state in which the contact carries the load under the undeformed cylinder, its gap full of lubricant
     without pressure."""
     setting = model.setting
-    patch = model.patch
+    contact = model.contact_at(0.0)
+    patch = contact.patch
     load = model.setting.line_history.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.line_history.radius.before(0.0)), load)
     undeformed_gap = setting.undeformed(0.0).terms.H
-    film = film_under(state.mean_gap) - float(model.mean_row @ undeformed_gap)
+    film = film_under(state.mean_gap) - float(contact.mean_row @ undeformed_gap)
     if film <= 0.0:
         message = "at rest there is no gap for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
         raise InputError(f"{message}; give {ways}")
     undeformed = setting.undeformed(film)
-    state = replace(state, mean_film=float(model.mean_row @ undeformed.terms.H))
+    state = replace(state, mean_film=float(contact.mean_row @ undeformed.terms.H))
     return replace(undeformed, payload=ContactStep(load, state, START_SOFTNESS * state.mean_gap))
 
 
@@ -166,7 +168,7 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    balance = solve_balance(values, c.speed.before(0.0), model.patch, model.prepared.surface.sq)
+    balance = solve_balance(values, c.speed.before(0.0), model.contact_at(0.0).patch, model.prepared.surface.sq)
     film, error = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")

@@ -4,12 +4,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..film import cubic
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared, stated_way_to_motion
 from ..scene import Scene, moving_bodies, sampled_times
 from .film_setting import TIME_SHARE, Setting
-from .load_sharing_solver import LoadSharingSolver
+from .load_sharing_solver import LoadSharingSolver, operator_to
 from .march import Progress
 from .model import Output
 from .moment import load_sharing_moment
@@ -100,20 +99,15 @@ def make_load_sharing(
 ) -> TransientLoadSharing:
     """Return the model on the strip of ``prepared``, with the operators between the film's grid and the patch.
     ``correlation_length``, ``area``, ``plastic``: as in `TransientLoadSharing`."""
-    problem = setting.problem
     numerics = prepared.scene.numerics
     time_error = transient_of(prepared.scene).tolerance or _default_time_error(prepared.scene)
     patch = prepared.rough_contact
     if patch.adjustable_tolerance is not None:
         patch = patch.tightened(min(patch.adjustable_tolerance, CONTACT_SHARE * time_error))
-    x = patch.x / problem.length_unit
-    unit_vectors = np.eye(setting.grid.n + 1)
-    to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * problem.film_unit
     return TransientLoadSharing(
         prepared=replace(prepared, rough_contact=patch),
         setting=setting,
-        to_patch=to_patch,
-        mean_row=patch.weight @ to_patch / patch.weight.sum(),
+        to_patch=operator_to(setting, patch.x),
         tolerance=min(numerics.tolerance_of("balance"), LOOSEST_BALANCE, BALANCE_SHARE * time_error),
         correlation_length=correlation_length,
         area=area,

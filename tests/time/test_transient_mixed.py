@@ -63,6 +63,21 @@ def test_a_slow_ramp_follows_the_stribeck_curve():
     assert result.contact_load[0] > 1 and result.contact_load[-1] == 0  # through the lift-off
 
 
+@pytest.mark.parametrize("geometry", ["cylinder", "flat"])
+def test_a_contact_forgets_the_load_and_the_radius_that_it_had(geometry):
+    """After half the load and a third of the radius f is the steady one there: the area A is the Hertz strip of the moment."""
+    scene = SCENE.with_(contact={"geometry": geometry})
+    (load, radius) = (scene.bodies.load, scene.bodies.radius)
+    plan = Transient(
+        0.2, load=Ramp(start=load, end=load / 2, until=0.05), radius=Ramp(start=radius, end=radius / 3, until=0.05)
+    )
+    result = run(plan, [0.0, 0.2], prepare(scene))
+    there = lubfric.friction(scene.with_(bodies={"load": load / 2, "radius": radius / 3}))
+    assert there.contact_load > 0.3 * load / 2
+    np.testing.assert_allclose(result.coefficient[-1], there.coefficient, rtol=5e-3)
+    np.testing.assert_allclose(result.contact_load[-1], there.contact_load, rtol=1e-2)
+
+
 def test_balances_hold_at_every_output():
     speed = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0)
     load = Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)
