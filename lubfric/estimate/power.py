@@ -24,10 +24,10 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
     return force * sliding + resistance * (entrainment - 0.5 * sliding)
 
 
-def rolling_resistance_error(error: float, model_error: float) -> float:
-    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and its ``model_error`` at 95 %
+def rolling_resistance_error(error: float, by_model: float) -> float:
+    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and that ``by_model`` at 95 %
     (`lubfric.models.Model.rolling_error`)."""
-    return math.hypot(2.0 * error, model_error)
+    return math.hypot(2.0 * error, by_model)
 
 
 @dataclass(frozen=True, kw_only=True)

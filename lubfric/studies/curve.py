@@ -1,7 +1,6 @@
 """Solved points over one number, each of which may have failed: what Stribeck and traction curves have in common, and
 their tables."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar, TypeVar
 
@@ -22,7 +21,7 @@ from ..models.shared import GatheredTexts, Violation, gathered_on_curve, in_a_ce
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted, heading
 
 
-class CurveResult(ABC, Renamed, Shown):
+class CurveResult(Renamed, Shown):
     """Base of the results of curves: ``points`` (None where failed), ``errors`` {index: exception}, ``report``.
     ``result["contact_load"]`` is an array of that number of all points, NaN where one failed.
 
@@ -40,9 +39,9 @@ class CurveResult(ABC, Renamed, Shown):
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
 
     @property
-    @abstractmethod
     def slide_roll_ratios(self) -> np.ndarray:
-        """The slide-roll ratio of every point [-], (n,)."""
+        """The slide-roll ratio of every point [-], (n,); of a subclass."""
+        raise NotImplementedError
 
     @property
     def without_rolling(self) -> np.ndarray:
