@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 # Height of the picture [inch], at the usual width. A choice, by looking at the figures.
 HEIGHT_OF_CURVES = 4.0
 
+# Lines that are drawn of a curve alone: with those of several, none of them can be read.
+OF_ONE_CURVE = (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION)
+
 # Of the picture of several curves, without its ending.
 TOGETHER = "stribeck_together"
 
@@ -78,7 +81,7 @@ def plot_curves(
     measured: studies.Measured | None = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Draw friction over the speed of several ``curves``, by their names, with what was ``measured``."""
+    """Draw friction over the speed of several ``curves``, by their names, with what was ``measured``, without its parts."""
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
     for name, columns in curves.items():
@@ -88,7 +91,7 @@ def plot_curves(
             name,
             name,
             interval="bars" if options.has_bars else "band",
-            without=options.without,
+            without=(*OF_ONE_CURVE, *options.without),
         )
     if measured is not None:
         measured.draw(axes)
