@@ -94,7 +94,12 @@ def result_of(
             scene, prepared.surface.sq, speed, friction_parts, includes_motion=choice.model.includes_motion
         ),
         methods=_methods(prepared, choice, numbers, uncertainty),
-        inputs=inputs_to_quote(scene, prepared.sample.maps_before_extension, has_given_map=prepared.has_given_map),
+        inputs=inputs_to_quote(
+            scene,
+            prepared.sample.maps_before_extension,
+            has_given_map=prepared.has_given_map,
+            has_sampling_error=math.isfinite(uncertainty.sampling),
+        ),
         fields=fields,
         compared_fields=compared_fields,
         details=details,

@@ -14,17 +14,20 @@ from ..units import worded
 ESTIMATED_BY = ("gold", "so-klaus")
 
 
-def inputs_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False) -> tuple[str, ...]:
+def inputs_to_quote(
+    scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False, has_sampling_error: bool = True
+) -> tuple[str, ...]:
     """Return the roughness, the load, the lubricant, the boundary friction and the sliding of ``scene``, each with its
     unit and its range as text, as far as it has them; what changes in time as its range over the run. ``maps``: of its
     rough bodies, before they are extended (`lubfric.samples.Sample.maps_before_extension`); ``has_given_map``: whether
-    maps were given in place of those of the scene."""
+    maps were given in place of those of the scene; ``has_sampling_error``: whether that of f is known at some point."""
     bodies = scene.bodies
     peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     histories = scene.transient
     texts = ["height map given as an array"] if has_given_map else [*_roughness(scene, maps)]
     if scene.numerics.sampling == "patch":
-        texts.append("one patch of the surface in place of strips, without a sampling error")
+        texts.append("one patch of the surface in place of strips")
+        texts += [] if has_sampling_error else ["sampling error of f not known"]
     texts.append(f"{_in_time(scene, 'load', 'load', bodies.load)} on a length of {worded(bodies.width, 'm')}")
     texts.append(_in_time(scene, "radius", "reduced radius", bodies.radius))
     if histories is None or (histories.load is None and histories.radius is None):

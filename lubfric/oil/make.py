@@ -128,10 +128,10 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     alpha = oil.pressure_viscosity_coefficient(temperature)
     other = oil.other_estimate(temperature)
     if alpha.low == alpha.high:
-        return f"{text}, alpha {alpha.value * 1e9:.3g} /GPa as given"
-    text += f", alpha {alpha.text} /GPa"
+        return f"{text}; pressure-viscosity coefficient {alpha.value * 1e9:.3g} /GPa as given"
+    text += f"; pressure-viscosity coefficient {alpha.text} /GPa"
     thin, thick = ((bound / alpha.value) ** FILM_EXPONENT - 1 for bound in (alpha.low, alpha.high))
-    text += f"; this range of alpha changes the film thickness by {100 * thin:+.2g} to {100 * thick:+.2g} %"
+    text += f"; the range of this coefficient changes the film thickness by {100 * thin:+.2g} to {100 * thick:+.2g} %"
     if other is not None:
         text += f"; the estimate of {other.source} is {other.value * 1e9:.3g} /GPa ({100 * (other.value / alpha.value - 1):+.2g} %)"
     return text

@@ -60,7 +60,7 @@ def curve_answer(
         sentences.append(f"{missing} The answer is for the nearest solved one.")
     if others := point.uncertainty.without_sampling_in_words:
         sentences.append(WITHOUT_SAMPLING.format(others))
-    sentences.append(_inputs_in_interval(point))
+    sentences += _inputs_in_interval(point)
     if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
         sentences.append(SIGN_OF_F)
     if point.decision.basis:
@@ -98,19 +98,20 @@ def curve_answer(
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
 
 
-def _inputs_in_interval(point: FrictionResult) -> str:
-    """Return in a sentence which inputs the interval of f of a ``point`` contains, and what is taken of all others."""
+def _inputs_in_interval(point: FrictionResult) -> list[str]:
+    """Return in a sentence which inputs the interval of f of a ``point`` contains, and what is taken of all others;
+    none where there is no interval."""
     known = point.uncertainty
     if not math.isfinite(known.sampling):
-        return ""
+        return []
     names = [*known.inputs_in_interval, *([known.missing_input] if known.not_given else [])]
     labels = dict.fromkeys(names_of_inputs([name]) for name in names)
     if not labels:
-        return "The interval contains no error of the inputs: all of them count as exact."
+        return ["The interval contains no error of the inputs: all of them count as exact."]
     *first, last = labels
     words = " and ".join(filter(None, (", ".join(first), last)))
     ranges = "ranges" if first else "range"
-    return f"The interval contains the {ranges} of {words}. All other inputs count as exact."
+    return [f"The interval contains the {ranges} of {words}. All other inputs count as exact."]
 
 
 def change_of_model(curve: CurveResult) -> list[str]:

@@ -126,7 +126,7 @@ def _lubricant(scene: Scene) -> list[str]:
     oil = scene.lubricant
     rows = []
     if oil.oil is not None and oil.temperature is not None:
-        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
+        rows += estimate_in_words(oil.oil, oil.temperature).split("; ")
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
     if oil.is_limited_by_boundary_friction:
         rows.append("shear: Newtonian up to f_b p, as stated")

@@ -9,9 +9,11 @@ from .._base import FloatArray
 from ..models.shared import (
     SAMPLING_ERROR,
     SAMPLING_ERROR_MISSED,
+    Assumption,
     half_width_of_error,
     is_by_sliding,
     is_near_zero,
+    percent,
     percent_beside,
     sentence,
     standard_error_in_words,
@@ -30,6 +32,9 @@ class MissedTolerance:
     points : numbers of the rows of the table, from 0
     worst : the row that is farthest above
     value, limit : the error there and its limit, relative to f, at 95 %
+    limits : the smallest and the largest limit of these rows; None: ``limit`` alone
+    assumption : on this error, an `Assumption`
+    notes : at how many of the points it is a note, because it is usual for the model or accepted with it
     """
 
     error: str
@@ -38,6 +43,9 @@ class MissedTolerance:
     worst: int
     value: float
     limit: float
+    limits: tuple[float, float] | None = None
+    assumption: str = ""
+    notes: int = 0
 
     def in_words(self, total: int, place: Callable[[int], str]) -> str:
         """Return the miss in a sentence; ``total``: number of solved points; ``place``: gives where a row lies, as "at
@@ -47,9 +55,18 @@ class MissedTolerance:
             return f"The {self.error} is {value}, above {limit} ({self.tolerance})."
         if len(self.points) == 1:
             return f"{sentence(place(self.worst)).removesuffix('.')} the {self.error} is {value}, above {limit} ({self.tolerance})."
+        notes = (
+            f" At {self.notes} of these it is a note, because it is usual for the model or accepted with it."
+            if self.notes
+            else ""
+        )
+        above = "above its tolerance"
+        if self.limits is not None and percent(self.limits[0]) != percent(self.limits[1]):
+            low, high = map(percent, self.limits)
+            above = f"above its limits, {low.removesuffix(' %')} to {high}"
         return (
-            f"At {len(self.points)} of {total} points the {self.error} is above its tolerance, farthest "
-            f"{place(self.worst)}: {value}, above {limit} ({self.tolerance})."
+            f"At {len(self.points)} of {total} points the {self.error} is {above}, farthest "
+            f"{place(self.worst)}: {value}, above {limit} ({self.tolerance}).{notes}"
         )
 
 
@@ -73,10 +90,12 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
         yield MissedTolerance(
             error=checked.name,
             tolerance=checked.tolerance_of(worst),
+            assumption=checked.assumption,
             points=tuple(points.tolist()),
             worst=worst,
             value=float(error[worst]),
             limit=float(checked.limit[worst]),
+            limits=(float(checked.limit[points].min()), float(checked.limit[points].max())),
         )
 
 
@@ -88,6 +107,7 @@ class _CheckedError:
     """
 
     name: str
+    assumption: str
     error: FloatArray
     limit: FloatArray
     tolerance_of: Callable[[int], str]
@@ -99,6 +119,7 @@ def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numeri
     count = len(numerics)
     yield _CheckedError(
         name="numerical error of f",
+        assumption=Assumption.NUMERICAL_ERROR,
         error=_column(columns, "numerical_error", count),
         limit=np.array([each.tolerance for each in numerics]),
         tolerance_of=lambda row: "numerics.tolerance",
@@ -108,6 +129,7 @@ def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numeri
     of_sample = np.array([each.sampling_tolerance for each in numerics])
     yield _CheckedError(
         name=SAMPLING_ERROR,
+        assumption=Assumption.SAMPLING_ERROR,
         error=at_95 * _column(columns, "sampling_error", count),
         limit=at_95 * of_sample,
         tolerance_of=lambda row: standard_error_in_words(float(of_sample[row])),
@@ -117,6 +139,7 @@ def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numeri
     of_model = np.square(_column(columns, "model_error", count)) - np.square(by_limit)
     yield _CheckedError(
         name="model-form error of f",
+        assumption=Assumption.MODEL_FORM_ERROR,
         error=np.sqrt(np.maximum(of_model, 0.0)),
         limit=np.array([each.model_tolerance for each in numerics]),
         tolerance_of=lambda row: "numerics.model_tolerance",

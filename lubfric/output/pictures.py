@@ -25,6 +25,7 @@ from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
 from .point_picture import draw_point
+from .study_warnings import OF_TOLERANCES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -285,8 +286,8 @@ def _mark(
     violations: list[Sequence[Any]],
     options: PictureOptions,
 ) -> None:
-    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below
-    says which. Then the key of all lines."""
+    """Ring the points with a warning, and cross out those at which f is meaningless. The text below says which
+    assumptions are violated there. Then the key of all lines."""
     violations = _shown_violations(violations, options)
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
@@ -309,8 +310,12 @@ def _shown_violations(violations: list[Sequence[Any]], options: PictureOptions) 
 
 
 def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
-    """List below ``figure`` which assumptions are violated, and at how many points."""
-    counts = Counter(name for violated in violations for name in {each.assumption or each.what for each in violated})
+    """List below ``figure`` which assumptions are violated, and at how many points; errors of f are none."""
+    counts = Counter(
+        name
+        for violated in violations
+        for name in {each.assumption or each.what for each in violated if each.assumption not in OF_TOLERANCES}
+    )
     if not counts:
         return
     named = (

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_stu
 from ..time import TransientResult, counts_in_average
 from .missed_tolerances import MissedTolerance, missed_tolerances
 from .operating_point import place_on_curve
-from .study_points import scene_of_each
+from .study_points import scene_of_each, violations_of_each
 
 # Assumptions on errors of f, whose violation the status of a run names.
 ERRORS_OF_F = (Assumption.NUMERICAL_ERROR, Assumption.MODEL_FORM_ERROR)
@@ -35,7 +35,7 @@ class StatusOfPoints:
     ----------
     columns : their numbers by name, (n,), those of the error of f among them
     scenes : the scene of each, (n,)
-    violations : the assumptions that do not hold at each, (n,) or more
+    violations : the assumptions that do not hold at each, (n,)
     """
 
     columns: Mapping[str, np.ndarray]
@@ -45,7 +45,19 @@ class StatusOfPoints:
     @property
     def exceeded(self) -> list[MissedTolerance]:
         """The tolerances that points miss."""
-        return list(missed_tolerances(self.columns, self.scenes))
+        return [
+            replace(each, notes=self._noted_model_errors(each.points))
+            if each.assumption == Assumption.MODEL_FORM_ERROR
+            else each
+            for each in missed_tolerances(self.columns, self.scenes)
+        ]
+
+    def _noted_model_errors(self, points: Iterable[int]) -> int:
+        """Return at how many ``points`` the model-form error is a note."""
+        return sum(
+            any(each.assumption == Assumption.MODEL_FORM_ERROR and each.is_note for each in self.violations[point])
+            for point in points
+        )
 
     @property
     def largely_inexact(self) -> int:
@@ -84,7 +96,7 @@ def status_of_curve(scene: Scene, curve: CurveResult) -> StatusOfPoints:
 def status_of_study(result: StudyResult) -> StatusOfPoints:
     """Return how sure f is at the points of a study."""
     return StatusOfPoints(
-        columns=columns_of_study(result), scenes=scene_of_each(result), violations=[*result.violations.flat]
+        columns=columns_of_study(result), scenes=scene_of_each(result), violations=violations_of_each(result)
     )
 
 

@@ -10,6 +10,7 @@ from .._base import FloatArray
 from ..estimate import PARTS
 from ..models.shared import (
     UnmodelledEffect,
+    Violation,
     half_width_of_error,
     is_near_zero,
     percent_of_sides,
@@ -43,6 +44,11 @@ def scene_of_each(result: StudyResult) -> list[Scene]:
     curves = result.plan.scenes
     each = result.status.size // len(curves)
     return [curves[i // each] for i in np.flatnonzero(result.status.ravel() != UNUSED)]
+
+
+def violations_of_each(result: StudyResult) -> list[tuple[Violation, ...]]:
+    """Return the assumptions that do not hold at each point of `columns_of_study`."""
+    return [result.violations.flat[i] for i in np.flatnonzero(result.status.ravel() != UNUSED)]
 
 
 def effects_at(result: StudyResult, rows: Sequence[int]) -> Iterator[tuple[UnmodelledEffect, ...]]:

@@ -106,7 +106,8 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
         worst = ordered[0 if ordered[0].is_below else -1]
         end = "smallest" if worst.is_below else "largest"
         where = (f"where it is {end}" if len(differing) > 1 else "" for differing in texts)
-        lines.append(f"{some}{worst.text_of(' to '.join(values) + worst.spaced_unit, *where)}")
+        limits = [violation.limit for violation in ordered]
+        lines.append(f"{some}{worst.text_of(' to '.join(values) + worst.spaced_unit, *where, limits=limits)}")
     return lines
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from .._base import FloatArray, FrozenArrays, Shown, figures, validate
 from ..errors import InputError
+from ..quantities import counted
 from . import prepare, regrid, statistics
 from .bearing import Bearing, bearing
 from .labels import check_labels
@@ -181,7 +182,9 @@ class Surface(FrozenArrays, Shown):
         if self.mask is None:
             return self
         filled = prepare.harmonic_fill(self.heights, self.mask, self.spacing)
-        return self._with(filled, f"filled: {np.count_nonzero(~self.mask)} unmeasured points, harmonically")
+        return self._with(
+            filled, f"filled: {counted(int(np.count_nonzero(~self.mask)), 'unmeasured points')}, harmonically"
+        )
 
     def without_outliers(self) -> Surface:
         """Make outliers unmeasured points. Level before, fill after; `lubfric.surface.outliers` has the rule."""

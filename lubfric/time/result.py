@@ -462,7 +462,10 @@ def collect(
         model_form_unknown=model.model_form_unknown,
         methods=methods_of(prepared, _use(prepared, columns)),
         stated_inputs=inputs_to_quote(
-            prepared.scene, prepared.sample.maps_before_extension, has_given_map=prepared.has_given_map
+            prepared.scene,
+            prepared.sample.maps_before_extension,
+            has_given_map=prepared.has_given_map,
+            has_sampling_error=bool(np.isfinite(columns["sampling_error"]).any()),
         ),
     )
 

@@ -95,6 +95,8 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     traction = lubfric.traction(PATCH, [0.5, 1.0], raise_on_failure=False).cite("methods")
     assert "slide-roll ratios 0.5 to 1" in traction and "slide-roll ratio 2" not in traction
     history = Transient(0.01, outputs=5, load=Ramp(start=100.0, end=200.0, until=0.01))
+    without = inputs_to_quote(PATCH, has_sampling_error=False)
+    assert sorted({*without} - {*inputs_to_quote(PATCH)}) == ["sampling error of f not known"]
     inputs = inputs_to_quote(replace(PATCH, transient=history))
     assert inputs[2].startswith("load 100 to 200 N on a length of") and not any("peak" in text for text in inputs)
 

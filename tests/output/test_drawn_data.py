@@ -197,6 +197,16 @@ def test_lines_of_a_curve_are_omitted(figures, tmp_path, monkeypatch):
             assert lines.intersection(figures[-1].axes[0].get_legend_handles_labels()[1]) == shown
 
 
+def test_errors_of_f_are_no_assumptions_below_a_curve(figures):
+    of_f = [f"{name} error within its tolerance" for name in ("numerical", "sampling", "model-form")]
+    errors = [SimpleNamespace(severe=False, is_note=False, assumption=name, what="") for name in of_f]
+    starved = SimpleNamespace(severe=False, is_note=False, assumption="", what="starved")
+    plot_stribeck("x.png", COLUMNS, "title", [(*errors,), (), (), (*errors, starved)])
+    text = figures[0].get_supxlabel()
+    assert text.endswith(": starved (1 of 3 points)") and "error" not in text
+    assert data(figures[0].axes[0], "with warnings").shape == (2, 2)
+
+
 @pytest.mark.parametrize("unknown, words", [([], ""), ([0], ", model-form error where known")])
 def test_the_key_says_whether_the_model_form_error_is_known_at_all_points(figures, unknown, words):
     """Where a gap breaks the line of a traction curve, there is no point whose error could be unknown."""

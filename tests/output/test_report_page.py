@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html import escape, unescape
 
 import numpy as np
@@ -275,6 +276,11 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     alone = MissedTolerance(error="e", tolerance="k", points=(0,), worst=0, value=0.0104, limit=0.01)
     assert shortfalls([alone], 1, 1, place)[0] == "The e is 1.04 %, above 1 % (k)."
     assert shortfalls([alone], 1, 2, place)[0] == "At U = 0 m/s the e is 1.04 %, above 1 % (k)."
+    differing = replace(missed, limits=(0.005, 0.01), notes=1)
+    assert differing.in_words(3, place) == (
+        "At 2 of 3 points the numerical error of f is above its limits, 0.5 to 1 %, farthest at U = 2 m/s: 2 %, above 1 % "
+        "(numerics.tolerance). At 1 of these it is a note, because it is usual for the model or accepted with it."
+    )
 
 
 def test_no_relative_error_of_an_f_near_zero_misses_a_tolerance():

@@ -103,6 +103,22 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
     ]
 
 
+def test_a_group_states_the_range_of_its_limits_where_they_differ():
+    """So that no value of the group is above a limit of another point."""
+
+    def error(value, limit):
+        return Violation(what="error", value=value, limit=limit, unit="%", consequence="why", recommendation="")
+
+    rows = [(error(5.48, 5.1),), (error(38.4, 5.55),)]
+    words = "above their limits, 5.1 to 5.55 %. Why."
+    (in_table,) = gathered_in_table(rows)
+    (on_curve,) = gathered_on_curve(list(enumerate(rows)))
+    assert in_table.statement == f"error is 5.48 to 38.4 % (at point 2), {words}"
+    assert on_curve.statement == f"error is 5.48 % (at 0 m/s) to 38.4 % (at 1 m/s), {words}"
+    (alike,) = gathered_in_table([(error(5.48, 5.1),), (error(38.4, 5.1),)])
+    assert alike.statement.endswith(", above 5.1 %. Why.")
+
+
 def test_violations_are_sorted_by_the_size_of_their_effect_on_f():
     """Severe ones first, those of an unknown effect last, on a curve and in a table."""
 

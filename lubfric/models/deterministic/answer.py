@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from ...errors import ConvergenceError
-from ...quantities import depending_on
+from ...quantities import counted, depending_on
 from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
 from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
@@ -463,15 +463,13 @@ def _words_of_levels(levels: Levels) -> str:
     first = levels.pairs[0].resolved.result
     count = len(levels.pairs)
     pieces = levels.pieces
-    strips = f"{count} strip{'s' if count > 1 else ''} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
+    strips = f"{counted(count, 'strips')} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
     if levels.control_strips:
-        strips += f" of a line of {levels.control_strips} strips"
+        strips += f" of a line of {counted(levels.control_strips, 'strips')}"
     if pieces:
         of_strips = pieces[0].on_cells_of_strips.result.spacing
         times = round(max(long / short for long, short in zip(of_strips, pieces[0].on_shortest_cells.result.spacing)))
-        strips += (
-            f", with the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
-        )
+        strips += f", with the effect of cells {times} times as short on {counted(len(pieces), 'pieces')}"
         if levels.shortest:
             of_last = levels.shortest.on_shortest_cells.result.spacing
             times = round(max(long / short for long, short in zip(of_strips, of_last)))

@@ -25,6 +25,10 @@ TEXT_SEPARATOR = " | "
 MOST_PLACES = 12
 
 
+# Digits of a value and of its limit, at least. A convention.
+LIMIT_DIGITS = 3
+
+
 def _in_digits(value: float, digits: int) -> str:
     """Return ``value`` with so many ``digits``, without a power of ten up to a million."""
     rounded = float(f"{value:.{digits}g}")
@@ -152,23 +156,36 @@ class Violation(Renamed):
     @property
     def _beside_limit(self) -> tuple[str, str]:
         """The value and the limit as texts that differ."""
-        return distinct_texts(self.value, self.limit, _in_digits, least=3)
+        return distinct_texts(self.value, self.limit, _in_digits, least=LIMIT_DIGITS)
 
-    def text_of(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
+    def text_of(
+        self, values: str, place: str = "", place_of_recommendation: str = "", *, limits: Sequence[float] = ()
+    ) -> str:
         """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 %
         (at 3 m/s)"; ``place``, ``place_of_recommendation``: where the consequence and the recommendation hold as they
-        are stated, if not everywhere."""
-        return f"{self.head}: {self.statement(values, place, place_of_recommendation)}"
+        are stated, if not everywhere; ``limits``: of all values, where it may differ from that of this one."""
+        return f"{self.head}: {self.statement(values, place, place_of_recommendation, limits=limits)}"
 
-    def statement(self, values: str, place: str = "", place_of_recommendation: str = "") -> str:
+    def statement(
+        self, values: str, place: str = "", place_of_recommendation: str = "", *, limits: Sequence[float] = ()
+    ) -> str:
         """Return the `text_of` without its `head`."""
-        side = "above" if self.value > self.limit else "below"
-        limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
-        numbers = f"{values}{limit}"
+        numbers = f"{values}{self._limits_in_words(limits)}"
         where = f" {place_of_recommendation}" if place_of_recommendation else ""
         last = f"{RECOMMENDATION}{where}: {self.recommendation}." if self.recommendation else ""
         consequence = f"{place}: {self.consequence}" if place else self.consequence
         return f"{self.what} is {numbers}. {sentence(consequence)}{last}"
+
+    def _limits_in_words(self, limits: Sequence[float]) -> str:
+        """Return on which side of which limits the value is, as text to be appended; "" where it has no limit."""
+        if not math.isfinite(self.limit):
+            return ""
+        side = "above" if self.value > self.limit else "below"
+        known = [limit for limit in limits if math.isfinite(limit)] or [self.limit]
+        low, high = (_in_digits(end, LIMIT_DIGITS) for end in (min(known), max(known)))
+        if low == high:
+            return f", {side} {self._beside_limit[1]}{self.spaced_unit}"
+        return f", {side} their limits, {low} to {high}{self.spaced_unit}"
 
 
 def sentence(text: str) -> str:
@@ -229,7 +246,8 @@ def gathered_on_curve(
         alike = _alike(group, worst)
         places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
         place = at_values(sorted(value for value, _ in group), unit, name)
-        statement = worst.statement(_from_to(group, unit), *places)
+        limits = [violation.limit for _, violation in group]
+        statement = worst.statement(_from_to(group, unit), *places, limits=limits)
         lines.append(GatheredTexts(statement=statement, place=place, violation=worst))
     return tuple(lines)
 
@@ -331,9 +349,10 @@ def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts
         worst = _worst([*group.values()])
         alike = _alike(group.items(), worst)
         (place, advised) = (numbers_in_words(n, len(rows)) if len(n) < len(group) else "" for n in alike)
+        limits = [violation.limit for violation in group.values()]
         lines.append(
             GatheredTexts(
-                statement=worst.statement(_range_in_table(group), place, advised.lower()),
+                statement=worst.statement(_range_in_table(group), place, advised.lower(), limits=limits),
                 place=numbers_in_words(sorted(group), len(rows)),
                 numbers=tuple(sorted(group)),
                 names_all_points=len(_runs(sorted(group))) <= MOST_PLACES,
