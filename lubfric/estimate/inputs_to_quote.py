@@ -32,6 +32,11 @@ def inputs_to_quote(
     texts.append(_in_time(scene, "radius", "reduced radius", bodies.radius))
     if histories is None or (histories.load is None and histories.radius is None):
         texts.append(f"peak Hertz pressure {worded(peak, 'Pa')}")
+    texts.append(f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}")
+    if bodies.hardness is not None:
+        texts.append(
+            f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
+        )
     texts += _lubricant(scene)
     texts.append(
         f"boundary friction coefficient {worded(bodies.boundary_friction_coefficient, '-')}"
@@ -40,6 +45,12 @@ def inputs_to_quote(
     if bodies.boundary_film is not None:
         texts.append(f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}")
     if histories is not None:
+        turns = (
+            ""
+            if histories.rotational_speed is None
+            else f" at {60 * histories.rotational_speed:.4g} revolutions per minute"
+        )
+        texts.append(f"run in time over {worded(histories.duration, 's')}{turns}")
         texts.append(_in_time(scene, "speed", "entrainment speed", scene.motion.entrainment_speed))
     if histories is not None and histories.sliding is not None:
         texts.append(_in_time(scene, "sliding", "sliding speed", 0.0))
@@ -137,6 +148,10 @@ def _lubricant(scene: Scene) -> Iterator[str]:
         alpha = worded(lubricant.pressure_viscosity_coefficient, "1/Pa")
         by_range = _range(scene, "lubricant.pressure_viscosity_coefficient")
         yield f"pressure-viscosity coefficient {alpha}{' (estimated)' if is_estimated else ''}{by_range}"
+    if lubricant.inlet_length is not None:
+        yield f"lubricant from {worded(lubricant.inlet_length, 'm')} upstream of the middle on"
+    if lubricant.inlet_film is not None:
+        yield f"film on the surfaces of {worded(lubricant.inlet_film, 'm')} in the inlet"
     if lubricant.eyring_stress is not None:
         yield f"Eyring stress {worded(lubricant.eyring_stress, 'Pa')}{_range(scene, 'lubricant.eyring_stress')}"
     if lubricant.carreau is not None:

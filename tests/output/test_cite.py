@@ -98,6 +98,10 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     without = inputs_to_quote(PATCH, has_sampling_error=False)
     assert sorted({*without} - {*inputs_to_quote(PATCH)}) == ["sampling error of f not known"]
     inputs = inputs_to_quote(replace(PATCH, transient=history))
+    assert "run in time over 10 ms" in inputs
+    starved = inputs_to_quote(KNOWN.with_(lubricant={"inlet_length": 3e-4}, bodies={"hardness": 2.5e9}))
+    assert "lubricant from 300 µm upstream of the middle on" in starved
+    assert "plastic limit of the contact pressure 2.5 GPa" in starved
     assert inputs[2].startswith("load 100 to 200 N on a length of") and not any("peak" in text for text in inputs)
 
 
