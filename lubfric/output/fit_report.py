@@ -133,7 +133,9 @@ def fit_answer(result: FitResult) -> list[str]:
     ]
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]
-    sentences.append("The intervals contain the scatter of the data and the numerical error of f.")
+    sentences.append(
+        "The intervals contain the scatter of the data and the numerical error of f, for this sample of the surface."
+    )
     return [*sentences, *(sentence(text) for text in (*result.correlations, *result.not_in_intervals))]
 
 
@@ -148,6 +150,12 @@ def _with_interval(result: FitResult, key: str) -> str:
         return f"is about {worded_value(key, float(f'{value:.{DIGITS_IF_REFUSED}g}'))}"
     if not low < value < high or key == OIL_TEMPERATURE:
         return f"= {worded_value(key, value)}"
+    for side in result.undetermined_sides.get(key, ()):
+        (limit, known, end) = ("at least", low, "upper") if side == "above" else ("at most", high, "lower")
+        return (
+            f"is {limit} {worded_value(key, float(f'{known:.2g}'))} at 95 %, with no {end} end within its bounds "
+            f"({worded_value(key, float(f'{value:.2g}'))} fits best)"
+        )
     return f"= {with_interval(value, low, high, unit=unit)}"
 
 
@@ -182,7 +190,7 @@ def _parameters_table(result: FitResult) -> str:
             _determined(result, key),
             "not known" if math.isnan(change) else percent(change),
             "-"
-            if key in result.profiles or not move
+            if not move or (key in result.profiles and result.profiles[key].is_flat)
             else in_unit_of(float(move), result.values[key], unit if key != OIL_TEMPERATURE else "K"),
         ]
         body = number_cells(cells)
@@ -304,8 +312,9 @@ def _method(result: FitResult) -> list[str]:
         f"{percent(result.tolerance)}{by_noise}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
-        "The 95 % intervals follow from the slopes of f at the fit, with Student's t; a parameter without effect on f "
-        "there is varied up to its bounds.",
+        "The 95 % intervals follow from the slopes of f at the fit, with Student's t. Curves towards the ends of a wide "
+        "interval, with the other parameters fitted again, show where the sum of squares exceeds its limit; a parameter "
+        "without effect on f at the fit is varied up to its bounds.",
     ]
 
 

@@ -11,7 +11,7 @@ from .explain import WITHIN_WORDS, estimated_study, explained, in_words
 from .fit import estimated_fit, explain_fit, fit, starts_in_words
 from .fit_checks import ResidualTests, chance_of, residual_tests
 from .fit_input import Measured, read_measured
-from .fit_profile import Profile, flat_parameters, follow
+from .fit_profile import Profile, confirmed_ends, flat_parameters, follow, loose_parameters
 from .fit_result import FitResult, draw_fit, draw_residuals
 from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of

@@ -19,7 +19,7 @@ from .explain import WITHIN_WORDS, in_words
 from .fit_checks import residual_tests, root_mean_square
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance, linear_place
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
-from .fit_profile import LEAST_DECREASE, Profile, flat_parameters, follow
+from .fit_profile import LEAST_DECREASE, Profile, confirmed_ends, flat_parameters, follow, loose_parameters
 from .fit_result import AT_BOUND, FitResult
 from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count, with_minimum
 from .store import opened
@@ -45,6 +45,9 @@ MOST_BEGINNINGS = 6
 # Curves of a parameter that f does not change with at the fit, about: at both bounds, and to the end of its interval. A
 # choice between two, where f changes nowhere, and those of an interval with one end (`MOST_FOLLOWED`).
 USUAL_FOLLOWED = 5
+
+# Curves towards both ends of a wide interval, about: an end that the slopes predict takes one, any other two to four.
+USUAL_CONFIRMED = 4
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
 MOST_FITTED_MINIMA = 3
@@ -82,8 +85,8 @@ def fit(
     trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's
     own model; from the next ones too that larger residuals part from it, while the fit does not describe the data.
     Derivatives are differences over 4 % of the bounds, which stay above the tolerance on f. A parameter that f does not
-    change with at the fit is followed to its bounds (`lubfric.studies.fit_profile`); the fit continues from smaller
-    residuals on the way. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
+    change with at the fit is followed to its bounds, and curves towards the ends of a wide interval show where these
+    are (`lubfric.studies.fit_profile`); the fit continues from smaller residuals on the way. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
     sum by <= 1e-4 of it.
 
     `FitResult` has the uncertainty of the values, and says whether the fit describes the data at all.
@@ -323,16 +326,22 @@ def _sum_of_squares(result: FitResult) -> float:
 
 
 def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResult:
-    """Return ``result`` with the profiles of the parameters that f does not change with there; where one of them leads
-    to a smaller sum of squares, the result of a trust region that begins there."""
+    """Return ``result`` with the profiles of the parameters that f does not change with there, and of those with wide
+    intervals; where one of them leads to a smaller sum of squares, the result of a trust region that begins there."""
     followed: set[int] = set()  # beside an edge of f the differences say no more than on the flat
     for _ in range(result.unit.size + 1):
         jacobian = result.slopes / result.measured.scale[:, None]
         profiles: dict[str, Profile] = {}
         followed.update(flat_parameters(jacobian, result.variance, result.student))
-        fine.expected = fine.count + USUAL_FOLLOWED * len(followed - {fine.linear_place})
-        for place in sorted(followed):
-            profile = follow(fine, result.unit, jacobian, place=place, variance=result.variance, student=result.student)
+        loose: set[int] = set()
+        if result.describes_data:  # without it no interval is valid
+            loose.update(loose_parameters(result.unit_covariance, result.student))
+        loose -= {*followed, fine.linear_place}
+        fine.expected = fine.count + USUAL_FOLLOWED * len(followed - {fine.linear_place}) + USUAL_CONFIRMED * len(loose)
+        ends = partial(confirmed_ends, covariance=result.unit_covariance)
+        for place in (*sorted(followed), *sorted(loose)):
+            search = follow if place in followed else ends
+            profile = search(fine, result.unit, jacobian, place=place, variance=result.variance, student=result.student)
             profiles[list(result.parameters)[place]] = profile
             if profile.better is not None:
                 break

@@ -1,4 +1,9 @@
-"""Parameters that f does not change with at a fit: followed to their bounds, as differences there say nothing of them.
+"""Intervals of parameters in which f is not linear, by the profile of the sum of squares.
+
+The slopes at the fit predict the ends of an interval. Curves there, with the other parameters fitted again to first
+order, show whether the sum of squares exceeds its limit at these ends, farther out, or nowhere within the bounds.
+
+A parameter that f does not change with at the fit is followed to its bounds, as differences there say nothing of it.
 
 A limiting stress that is nowhere reached is one: f is constant over a part of its bounds, and falls below it. Curves
 between the fit and the bounds say where the residuals exceed those of the fit by what the interval allows, and whether
@@ -34,6 +39,18 @@ BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
 WITHIN_CURVES = (0.3, 0.7)
 
 
+# Curves towards one end of an interval, at most. A choice: an end that the slopes predict takes one, and one that they
+# miss by a factor of 2 takes three.
+MOST_TOWARDS_END = 6
+
+# Distance of the first curve from the fit over that of the predicted end: a curve shows an end by its being outside. A
+# choice below the next one.
+BEYOND_END = 1.05
+
+# Root of the increase of the sum of squares over its limit, up to which an end is interpolated between the fit or a
+# curve within the interval, and a curve outside. A choice: smaller takes more curves.
+CONFIRMED_ROOT = 1.15
+
 # Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum. A choice:
 # any number above rounding does.
 SMALLEST_STEP = 1e-9
@@ -41,11 +58,12 @@ SMALLEST_STEP = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class Profile:
-    """What curves at other values of one parameter show, where f does not change with it at the fit.
+    """What curves at other values of one parameter show.
 
     Attributes
     ----------
     low, high : ends of the 95 % interval, as positions between the bounds; 0 and 1 where the data set no limit
+    is_flat : whether f does not change with the parameter at the fit
     change : largest relative change of f at the measured points between the fit and the bounds within the interval;
         0 where it holds no bound, NaN where a curve at one could not be solved
     better : a position between the bounds, (p,), with a smaller sum of squares than the fit; None: there is none
@@ -55,6 +73,7 @@ class Profile:
     high: float
     change: float
     better: FloatArray | None = None
+    is_flat: bool = True
 
 
 def flat_parameters(jacobian: FloatArray, variance: float, student: float) -> list[int]:
@@ -125,6 +144,89 @@ def follow(
         change=np.nan if failed else max(changes, default=0.0),
         better=better,
     )
+
+
+def loose_parameters(covariance: FloatArray, student: float) -> list[int]:
+    """Return the places of the parameters whose intervals, by the ``covariance`` (p, p) of their positions, reach
+    beyond the steps of the differences, so that f may bend within them."""
+    return [int(place) for place in np.flatnonzero(student * np.sqrt(np.diag(covariance)) > PARAMETER_STEP)]
+
+
+def confirmed_ends(
+    curves: FitCurves,
+    unit: FloatArray,
+    jacobian: FloatArray,
+    covariance: FloatArray,
+    *,
+    place: int,
+    variance: float,
+    student: float,
+) -> Profile:
+    """Return the interval of the parameter at ``place`` by curves towards the ends that ``covariance`` (p, p) predicts.
+
+    Arguments as for `follow`. A curve has the other parameters of the curves beside it, refitted there, and is
+    refitted to first order itself. An end that no curve within the bounds shows is the bound: so is one beyond a curve
+    that cannot be solved.
+    """
+    slopes = np.delete(jacobian, place, axis=1)
+    flat = [other - (other > place) for other in flat_parameters(jacobian, variance, student) if other != place]
+    slopes[:, flat] = 0.0  # these do not move: to first order they would move anywhere
+    together = np.delete(covariance[:, place], place) / covariance[place, place]
+    together[flat] = 0.0
+    start = float(unit[place])
+    refitted: dict[float, FloatArray] = {}
+    sums: dict[float, float] = {}
+
+    def solve(share: float, others: FloatArray) -> None:
+        """Solve the curve at ``share`` with ``others`` (p - 1,), and refit these."""
+        residuals = curves.residuals(np.insert(others, place, share))
+        moving = _Others(slopes, others, math.inf)
+        refitted[share] = np.clip(others + moving.step(residuals), 0.0, 1.0)
+        sums[share] = _sum(moving.fitted(residuals))
+
+    def root(share: float) -> float:
+        """Return the root of the increase of the sum of squares at a solved ``share`` over its limit."""
+        return math.sqrt(max(sums[share] - sums[start], 0.0) / variance) / student
+
+    def end_towards(bound: float) -> float:
+        """Return the end of the interval on the side of ``bound``."""
+        side = math.copysign(1.0, bound - start)
+        reach = student * math.sqrt(covariance[place, place])
+        trial = float(np.clip(start + side * BEYOND_END * reach, 0.0, 1.0))
+        others = np.clip(np.delete(unit, place) + together * (trial - start), 0.0, 1.0)
+        inner = start
+        outer: float | None = None
+        for _ in range(MOST_TOWARDS_END):
+            try:
+                solve(trial, others)
+            except LubfricError:
+                return bound
+            step = (trial - inner) / max(root(trial) - root(inner), SMALLEST_STEP)
+            if root(trial) > 1.0:
+                outer = trial
+            elif trial == bound or sums[trial] < least:
+                return bound
+            else:
+                inner = trial
+            if outer is None:  # twice as far as the slope between the curves says: f may saturate
+                trial = float(np.clip(inner + 2.0 * (1.0 - root(inner)) * step, 0.0, 1.0))
+                others = refitted[inner]
+                continue
+            end = inner + (outer - inner) * (1.0 - root(inner)) / (root(outer) - root(inner))
+            if root(outer) <= CONFIRMED_ROOT or abs(outer - inner) <= PARAMETER_STEP:
+                return end
+            trial = min(end + side * (BEYOND_END - 1.0) * abs(end - start), outer, key=lambda x: abs(x - start))
+            shares = sorted(refitted)
+            others = np.array([np.interp(trial, shares, row) for row in np.transpose([refitted[s] for s in shares])])
+        return bound if outer is None else outer
+
+    solve(start, np.delete(unit, place))
+    least = sums[start] * (1.0 - LEAST_DECREASE)
+    low = end_towards(0.0)
+    high = end_towards(1.0)
+    lowest = min(sums, key=lambda share: sums[share])
+    better = np.insert(refitted[lowest], place, lowest) if sums[lowest] < least else None
+    return Profile(low=low, high=high, change=math.nan, better=better, is_flat=False)
 
 
 class _Others:

@@ -92,8 +92,8 @@ class FitResult(Renamed, Shown):
         the covariance
     variance : s², of the residuals over the scale of the measured points
     points : results at the measured points, (n,), without fields
-    profiles : by key, the curves over the bounds of parameters that f does not change with at the fit
-        (`lubfric.studies.fit_profile.Profile`). Their intervals come from these, and not from the covariance
+    profiles : by key, what curves show of parameters that f does not change with at the fit, and of those with wide
+        intervals (`lubfric.studies.fit_profile.Profile`). Their intervals come from these, and not from the covariance
     """
 
     base: Scene
@@ -247,10 +247,10 @@ class FitResult(Renamed, Shown):
     @property
     def effects(self) -> dict[str, float]:
         """Largest relative change of f at the measured points by each parameter: over its bounds, to first order; of
-        those with profiles, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
+        those that f does not change with there, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
         relative = np.abs(self.slopes / self.predicted[:, None]).max(axis=0)
         effects = dict(zip(self.parameters, relative.tolist()))
-        return effects | {key: profile.change for key, profile in self.profiles.items()}
+        return effects | {key: self.profiles[key].change for key in self._flat}
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used at the points, the model's first: one a line, or with ``format``
@@ -284,7 +284,7 @@ class FitResult(Renamed, Shown):
             where = "over its bounds it changes f by"
             reason = "f could not be solved at one of its bounds"
             if not math.isnan(change):
-                reason = f"{where} {percent(change)}{'' if key in self.profiles else ', linearised'}"
+                reason = f"{where} {percent(change)}{'' if key in self._flat else ', linearised'}"
             lines.append(f"the data do not determine {key}: {reason}")
         lines += [f"{key}: {self._one_sided(key)}" for key in self.undetermined_sides if key not in self.undetermined]
         keys = [*self.parameters]
@@ -315,7 +315,7 @@ class FitResult(Renamed, Shown):
         texts = []
         correlation = self.correlation
         for (i, first), (j, second) in combinations(enumerate(self.parameters), 2):
-            is_known = not {first, second} & {*self.undetermined, *self.profiles}
+            is_known = not {first, second} & {*self.undetermined, *self._flat}
             if is_known and abs(correlation[i, j]) <= CORRELATED:
                 texts.append(f"{first} and {second} are correlated by {correlation[i, j]:.2f}")
         return tuple(texts)
@@ -340,6 +340,12 @@ class FitResult(Renamed, Shown):
         (known, bound) = (high, low) if side == "below" else (low, high)
         if key not in self.profiles:
             return f"The data do not determine it {side}: {bound} is its bound, not an end by the data"
+        if key not in self._flat:
+            limit = "at least" if side == "above" else "at most"
+            return (
+                f"The data do not determine it {side}: it is {limit} {known}, and with the other parameters fitted "
+                f"again {bound}, its bound, is within the 95 % limit of the residuals as well"
+            )
         return (
             f"The data do not determine it {side}: f does not change with it at {value}, and every value from {known} "
             f"to its bound {bound} fits as well"
@@ -370,7 +376,7 @@ class FitResult(Renamed, Shown):
             return "not in the intervals: the effect of another sample of the surface, which is not known"
         moves = self.moved_by_surface
         reaches = dict(zip(self.parameters, self._reach * np.abs(self._slopes)))
-        moves = {key: move for key, move in moves.items() if key not in self.profiles}
+        moves = {key: move for key, move in moves.items() if key not in self._flat}
         if all(move <= UNREPORTED_MOVE * reaches[key] for key, move in moves.items()):
             return ""
         moved = ", ".join(f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in moves.items())
@@ -433,6 +439,11 @@ class FitResult(Renamed, Shown):
                 low[place] = self.profiles[key].low
                 high[place] = self.profiles[key].high
         return low, high
+
+    @property
+    def _flat(self) -> tuple[str, ...]:
+        """The parameters that f does not change with at the fit."""
+        return tuple(key for key, profile in self.profiles.items() if profile.is_flat)
 
     def _limits_of(self, key: str) -> tuple[str, ...]:
         """Return which ends of the interval of a parameter with a profile lie within its bounds: "lower", "upper"."""

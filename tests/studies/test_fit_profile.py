@@ -6,7 +6,17 @@ import pytest
 
 import lubfric
 from lubfric.errors import Report
-from lubfric.studies import Between, Candidate, FitResult, are_parted, flat_parameters, follow, with_minimum
+from lubfric.studies import (
+    Between,
+    Candidate,
+    FitResult,
+    are_parted,
+    confirmed_ends,
+    flat_parameters,
+    follow,
+    loose_parameters,
+    with_minimum,
+)
 from lubfric.studies.fit_profile import Profile
 
 # Slip of the points: f rises with its logarithm, up to a limit.
@@ -40,6 +50,66 @@ def followed(curves, a, b, scatter):
     jacobian = np.stack([(1 + LOGARITHM) / curves.measured, np.zeros(12)], axis=1)
     assert flat_parameters(jacobian, scatter**2, STUDENT) == [1]
     return follow(curves, unit, jacobian, place=1, variance=scatter**2, student=STUDENT)
+
+
+class Saturating:
+    """Residuals a + (s(b) - s(0.4)) (w + 1) - 0.3 of a and b between 0 and 1, with w of length 1 and mean 0. Refitting a
+    takes off the mean: the profile of the sum of squares over b is (s(b) - s(0.4))² + const."""
+
+    FIT = np.array([0.3, 0.4])
+
+    def __init__(self, rate):
+        self.rate = rate
+        self.count = 0
+
+    def s(self, b):
+        return (1.0 - np.exp(-self.rate * b)) / self.rate if self.rate else b
+
+    def b(self, s):
+        return -np.log(1.0 - self.rate * s) / self.rate if self.rate else s
+
+    def residuals(self, unit):
+        self.count += 1
+        w = np.linspace(-1.0, 1.0, 12) / np.linalg.norm(np.linspace(-1.0, 1.0, 12))
+        noise = 1e-3 * np.abs(w) - 1e-3 * np.abs(w).mean()
+        return unit[0] - 0.3 + (self.s(unit[1]) - self.s(0.4)) * (w + 1.0) + noise
+
+    def interval(self, limit):
+        """The interval of b, and the number of curves that it took, where s may move by ``limit``."""
+        variance = (limit / STUDENT) ** 2
+        moves = np.eye(2) * 1e-6
+        columns = [(self.residuals(self.FIT + move) - self.residuals(self.FIT)) / 1e-6 for move in moves]
+        jacobian = np.stack(columns, axis=1)
+        covariance = variance * np.linalg.inv(jacobian.T @ jacobian)
+        assert 1 in loose_parameters(covariance, STUDENT) and not flat_parameters(jacobian, variance, STUDENT)
+        self.count = 0
+        profile = confirmed_ends(self, self.FIT, jacobian, covariance, place=1, variance=variance, student=STUDENT)
+        assert profile.better is None and not profile.is_flat
+        return (profile.low, profile.high), self.count
+
+
+def test_the_interval_of_a_linear_parameter_is_that_of_its_slope_and_takes_two_curves():
+    ends, curves = Saturating(0.0).interval(0.2)
+    assert ends == pytest.approx((0.2, 0.6), abs=1e-4)
+    assert curves == 3  # with the one at the fit, which is known
+
+
+@pytest.mark.parametrize(("rate", "limit"), [(2.0, 0.1), (-2.0, 0.2), (4.0, 0.035)])
+def test_the_ends_of_a_saturating_parameter_are_those_of_its_profile(rate, limit):
+    curves = Saturating(rate)
+    exact = [curves.b(curves.s(0.4) + side * limit) for side in (-1, 1)]
+    ends, count = curves.interval(limit)
+    assert 0.0 < exact[0] and exact[1] < 1.0
+    assert ends == pytest.approx(exact, abs=0.02) and count <= 8
+
+
+def test_a_parameter_that_saturates_within_its_limit_has_no_upper_end():
+    """The slope at the fit ends the interval at 0.64; at the bound the root of the sum is 0.96 of its limit."""
+    curves = Saturating(4.0)
+    limit = (curves.s(1.0) - curves.s(0.4)) / 0.96
+    assert 0.4 + limit * np.exp(4.0 * 0.4) < 0.7
+    (low, high), count = curves.interval(limit)
+    assert high == 1.0 and low == pytest.approx(curves.b(curves.s(0.4) - limit), abs=0.02) and count <= 8
 
 
 def test_an_edge_beyond_which_the_residuals_are_smaller_is_found():
@@ -149,3 +219,27 @@ def test_a_parameter_with_one_limit_is_not_determined_on_the_other_side():
     assert text in of_limit and text in result.explain() and "0.15 is its bound" in of_friction
     lines = [line for line in result.explain().splitlines() if " = " in line]
     assert all(line.endswith("(not determined above)") for line in lines) and len(lines) == 2
+
+
+def test_a_wide_interval_without_an_upper_end_is_reported_as_at_least():
+    """f changes with the Eyring stress at the fit, and saturates in it."""
+    stress = "lubricant.eyring_stress"
+    friction = "bodies.boundary_friction_coefficient"
+    x = np.array([0.01, 0.02, 0.04, 0.08])
+    result = FitResult(
+        base=lubfric.load_scene("paper").with_(lubricant={"eyring_stress": 2e6}),
+        measured=lubfric.Measured(x, np.full(4, 0.1)),
+        parameters={
+            friction: Between(low=0.05, high=0.15, scale="linear"),
+            stress: Between(low=1e6, high=1e8, scale="log"),
+        },
+        unit=np.array([0.5, 0.3]),
+        unit_covariance=np.diag([1e-5, 1e-3]),
+        predicted=np.full(4, 0.1),
+        slopes=np.array([[0.1, 0.01], [0.1, 0.02], [0.1, 0.03], [0.1, 0.0]]),
+        report=Report("fit", "converged", iterations=1, residual=0.0, tolerance=1.0),
+        profiles={stress: Profile(low=0.25, high=1.0, change=np.nan, is_flat=False)},
+    )
+    assert result.undetermined_sides == {stress: ("above",)} and result.intervals[stress][1] == pytest.approx(1e8)
+    assert result.effects[stress] == pytest.approx(0.3)
+    assert "it is at least 3.162 MPa" in result.to_toml() and "(not determined above)" in result.explain()
