@@ -124,18 +124,18 @@ def fit_status(result: FitResult) -> tuple[str, str]:
 def fit_answer(result: FitResult) -> list[str]:
     """Return the answer of a fit in sentences: the fitted values first."""
     values = "; ".join(f"{_label(key)} {_with_interval(result, key)}" for key in result.parameters)
+    has_sample = result.describes_data and result.base.surface.sq != 0
+    for_sample = "; the intervals are for this sample of the surface" if has_sample else ""
     measured = result.measured
     what = "speeds" if measured.over == studies.SPEED else "slide-roll ratios"
     sentences = [
-        f"{values[0].upper()}{values[1:]}.",
+        f"{values[0].upper()}{values[1:]}{for_sample}.",
         f"The fitted curve deviates from the {counted(measured.x.size, 'measured points')} of {measured.source}, over "
         f"{what}, by {100 * result.rms_deviation:.2g} % of the measured f (root mean square).",
     ]
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]
-    sentences.append(
-        "The intervals contain the scatter of the data and the numerical error of f, for this sample of the surface."
-    )
+    sentences.append("The intervals contain the scatter of the data and the numerical error of f.")
     return [*sentences, *(sentence(text) for text in (*result.correlations, *result.not_in_intervals))]
 
 
@@ -150,16 +150,13 @@ def _with_interval(result: FitResult, key: str) -> str:
         return f"is about {worded_value(key, float(f'{value:.{DIGITS_IF_REFUSED}g}'))}"
     if not low < value < high or key == OIL_TEMPERATURE:
         return f"= {worded_value(key, value)}"
-    for side in result.undetermined_sides.get(key, ()):
-        (limit, known, end) = ("at least", low, "upper") if side == "above" else ("at most", high, "lower")
-        return (
-            f"is {limit} {worded_value(key, float(f'{known:.2g}'))} at 95 %, with no {end} end within its bounds "
-            f"({worded_value(key, float(f'{value:.2g}'))} fits best)"
-        )
+    if one_sided := result.one_sided_in_words(key, DIGITS_IF_REFUSED):
+        return f"is {one_sided}, at 95 % ({worded_value(key, float(f'{value:.{DIGITS_IF_REFUSED}g}'))} fits best)"
     return f"= {with_interval(value, low, high, unit=unit)}"
 
 
-# Digits of a fitted value without a valid interval, in a sentence. A choice: more would promise what no interval does.
+# Digits of a fitted value without a valid interval, or of the one end of its interval, in a sentence. A choice: more
+# would promise what no interval does.
 DIGITS_IF_REFUSED = 2
 
 # The temperature of the oil, which is in °C where people read it.
@@ -185,7 +182,7 @@ def _parameters_table(result: FitResult) -> str:
         move = moved[key]
         cells = [
             worded_value(key, result.values[key]) + (" (one of them)" if key in result.undetermined else ""),
-            interval if result.describes_data else "not valid",
+            (result.one_sided_in_words(key, DIGITS_IF_REFUSED) or interval) if result.describes_data else "not valid",
             f"{worded_value(key, float(bounds.low))} to {worded_value(key, float(bounds.high))}",
             _determined(result, key),
             "not known" if math.isnan(change) else percent(change),
@@ -216,7 +213,7 @@ def _determined(result: FitResult, key: str) -> str:
         return "no"
     sides = result.undetermined_sides.get(key, ())
     on_bound = ", on its bound" if key in result.at_bounds else ""
-    return (f"not {' and '.join(sides)}" if sides else "yes") + on_bound
+    return (f"no, not {' and '.join(sides)}" if sides else "yes") + on_bound
 
 
 def residuals_in_words(result: FitResult) -> list[str]:

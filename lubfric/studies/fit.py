@@ -46,7 +46,8 @@ MOST_BEGINNINGS = 6
 # choice between two, where f changes nowhere, and those of an interval with one end (`MOST_FOLLOWED`).
 USUAL_FOLLOWED = 5
 
-# Curves towards both ends of a wide interval, about: an end that the slopes predict takes one, any other two to four.
+# Curves towards both ends of a wide interval, about. A choice between two, where the slopes predict both ends, and
+# those of an Eyring stress without an upper end (7).
 USUAL_CONFIRMED = 4
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
@@ -202,8 +203,9 @@ def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: in
 
 
 def _usual_curves(fine: FitCurves) -> int:
-    """Return about how many curves a trust region solves: none for its steps where f_b alone changes."""
-    return USUAL_CURVES + (2 * len(fine.parameters) if fine.changed else 0)
+    """Return about how many curves a trust region solves, none for its steps where f_b alone changes; and those towards
+    the ends of the intervals, of which half are wide."""
+    return USUAL_CURVES + (2 * len(fine.parameters) if fine.changed else 0) + USUAL_CONFIRMED * fine.changed // 2
 
 
 def _curves(
@@ -329,7 +331,8 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
     """Return ``result`` with the profiles of the parameters that f does not change with there, and of those with wide
     intervals; where one of them leads to a smaller sum of squares, the result of a trust region that begins there."""
     followed: set[int] = set()  # beside an edge of f the differences say no more than on the flat
-    for _ in range(result.unit.size + 1):
+    tries = result.unit.size
+    while True:
         jacobian = result.slopes / result.measured.scale[:, None]
         profiles: dict[str, Profile] = {}
         followed.update(flat_parameters(jacobian, result.variance, result.student))
@@ -343,18 +346,19 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
             search = follow if place in followed else ends
             profile = search(fine, result.unit, jacobian, place=place, variance=result.variance, student=result.student)
             profiles[list(result.parameters)[place]] = profile
-            if profile.better is not None:
+            if profile.better is not None and tries:
                 break
         better = [profile.better for profile in profiles.values() if profile.better is not None]
-        if not better:
+        if not better or not tries:
             return replace(result, profiles=profiles)
         fine.forget_slopes()
         other = _fitted(fine, better[0], starts=result.starts, minima=[])
         minima = with_minimum(coarse, result.minima, other.unit) if result.starts else list(result.minima)
+        tries -= 1
         if _sum_of_squares(other) >= _sum_of_squares(result):
-            return replace(result, profiles=profiles)
-        result = replace(other, minima=tuple(minima))
-    return result
+            tries = 0  # the profiles of the other parameters are still to be followed
+        else:
+            result = replace(other, minima=tuple(minima))
 
 
 def _least(curves: FitCurves, begin: np.ndarray) -> tuple[np.ndarray, str, int]:

@@ -351,6 +351,15 @@ class FitResult(Renamed, Shown):
             f"to its bound {bound} fits as well"
         )
 
+    def one_sided_in_words(self, key: str, digits: int = 4) -> str:
+        """Return the interval of a parameter that the data do not determine on one side, "at least 1.4 MPa, with no
+        upper end within its bounds"; "" where it has two ends or none."""
+        if len(sides := self.undetermined_sides.get(key, ())) != 1:
+            return ""
+        (limit, end, other) = ("at least", 0, "upper") if sides == ("above",) else ("at most", 1, "lower")
+        known = worded_value(key, float(f"{self.intervals[key][end]:.{digits}g}"))
+        return f"{limit} {known}, with no {other} end within its bounds"
+
     def _ranges_note(self) -> str:
         """Return that the intervals do not include the ranges of inputs that are not fitted, as text; "" without one."""
         keys = [key for key, *_ in self.scene.ranges]
@@ -398,7 +407,8 @@ class FitResult(Renamed, Shown):
             note += " (on its bound)" if key in self.at_bounds else ""
             note += "" if self.describes_data else " (not valid)"
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
-            lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
+            interval = self.one_sided_in_words(key) or " to ".join(ends)
+            lines.append(f"  {key} = {value}, 95 % interval {interval}{note}")
         scatter = f"{100 * self.rms_deviation:.2g} % of the measured f"
         lines.append(f"  root mean square deviation of the points from the fit: {scatter}")
         if self.tests is not None and self.tests.note:
