@@ -49,6 +49,7 @@ FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
 TICKS_OF_BAR = 4  # of a short bar of colours, about; a choice, by looking at pictures of 85 mm
 NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
+INTERPOLATED_BETWEEN = "interpolated"  # of a dashed line between points
 
 # Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most

@@ -10,7 +10,7 @@ from ..models import title_of
 from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, is_by_sliding, percent
 from ..quantities import COLUMNS, counted, worded_value
 from ..scene import Scene
-from ..studies import CurveResult, StribeckResult, TractionResult, columns_of_curve
+from ..studies import LARGEST_BETWEEN, CurveResult, StribeckResult, TractionResult, columns_of_curve
 from ..time import TransientResult
 from ..units import plain_number, with_interval
 from .budget_bars import names_of_inputs
@@ -24,8 +24,6 @@ FULL_FILM_PART = 0.01
 MOST_STEP = 10.0
 # Factor on the speed, of which the change of f is stated. A choice: any other is as good.
 FASTER = 1.1
-# Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
-LARGEST_BETWEEN = 0.5
 # Which force f is, where a reader may ask for its sign.
 SIGN_OF_F = (
     "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 "
@@ -201,7 +199,7 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
         surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
         known = with_interval(speed, low, high, " by the solved speeds alone", unit="m/s")
         first = f"The lift-off speed, above which the film separates the surfaces, is {known}{surface}."
-    if curve.between > LARGEST_BETWEEN:
+    if not curve.between <= LARGEST_BETWEEN:
         between = "Between some of the solved speeds f is not known."
     else:
         between = (

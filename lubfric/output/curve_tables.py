@@ -15,6 +15,7 @@ from .describe import is_among
 from .films_in_words import LOADS, films_at_limit, note_on_touching
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, column_heading, number_cells, number_or_dash, table
 from .operating_point import operating_point_of
+from .rolling_part import heading_of_rolling, is_tabled, rolling_part
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -32,6 +33,13 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
     heads = [column_heading(swept, units[swept]), "f", INTERVAL_OF_F, *(column_heading(n, units[n]) for n in OF_POINT)]
     heads.append(ASPERITY_LOAD_RATIO)
+    sliding = curve.slide_roll_ratios * getattr(curve, "speed")
+    load = curve["contact_load"] + curve["film_load"]
+    rolling = rolling_part(curve["power_loss"], sliding, curve["coefficient"], load)
+    has_rolling = is_tabled(rolling, curve["power_loss"])
+    if has_rolling:
+        heads.insert(heads.index(INTERVAL_OF_F) + 2, heading_of_rolling(units["power_loss"]))
+    rolling = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
     rows = []
     for index, point in enumerate(curve.points):
         place = f"{shown[swept][index]:.4g}"
@@ -50,6 +58,8 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
         numbers[OF_POINT.index("power_loss")] = with_interval(
             float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
         )
+        if has_rolling:
+            numbers.insert(OF_POINT.index("power_loss") + 1, number_or_dash(float(rolling[index])))
         rows.append(number_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
     at_limit = films_at_limit({name: curve[name] for name in LOADS})
     beside = f"<p>{escape(at_limit)}</p>" if at_limit else ""

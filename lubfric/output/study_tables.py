@@ -21,6 +21,7 @@ from ..units import (
     worded,
 )
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, number_cells, table
+from .rolling_part import heading_of_rolling, is_tabled, rolling_part
 from .study_points import error_in_words, parts_of_error, scene_of_each
 
 # Rows of the table of a report, about; study.csv has all.
@@ -81,6 +82,8 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
         if name != "coefficient":
             heads.append(head)
             cells.append(column)
+            if name == "power_loss":
+                cells += _rolling_column(result, columns, picked, heads)
             continue
         heads += [head, INTERVAL_OF_F]
         place_of_interval = len(heads) - 1
@@ -96,6 +99,23 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
         texts = "".join(_number_cell(text, is_interval=i == place_of_interval) for i, text in enumerate(numbers))
         body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
     return table(heads, body)
+
+
+def _rolling_column(
+    result: StudyResult, columns: dict[str, np.ndarray], picked: np.ndarray, heads: list[str]
+) -> list[list[str]]:
+    """Return the cells of the rolling resistance in the power loss at the points that are ``picked``, and append its
+    heading to ``heads``; none where it is a small part of the loss at all of them."""
+    ratios = np.array([scene.motion.slide_roll_ratio for scene in scene_of_each(result)])
+    load = columns["contact_load"] + columns["film_load"]
+    rolling = rolling_part(columns["power_loss"], ratios * columns["speed"], columns["coefficient"], load)[picked]
+    loss = columns["power_loss"][picked]
+    if not is_tabled(rolling, loss):
+        return []
+    si = COLUMNS["power_loss"].unit
+    unit = unit_of_largest(loss.tolist(), si)
+    heads.append(heading_of_rolling(unit))
+    return [[_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]]
 
 
 def _number_cell(text: str, *, is_interval: bool) -> str:

@@ -25,6 +25,7 @@ from .store import Store, digest, fingerprint, fingerprint_without_files, opened
 from .study_lines import NAMED, NAMED_SHADES, STYLES, line_colours, lines_over, name_places, tick_values
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
+    LARGEST_BETWEEN,
     MOST_OF_POINTS,
     check_tools,
     columns_of_study,

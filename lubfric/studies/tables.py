@@ -18,7 +18,7 @@ from ..quantities import COLUMNS, KEYS, Quantity, axis_label, described, heading
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
 from .choose import between
-from .interpolate import through
+from .interpolate import Interpolant, through
 from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
 from .points import SPEED, STATUS, UNUSED, VALIDITY
@@ -48,6 +48,10 @@ LINE_POINTS = 200
 # Relative error of f between the points up to which a curve is drawn as a line or given as a formula. A choice: it
 # would not be seen.
 DRAWN_ERROR = 0.05
+
+# Relative error of f between the points up to which f is interpolated there, and beyond which it is not known. A
+# convention.
+LARGEST_BETWEEN = 0.5
 
 # Width and height of the picture of a map [inch]. A choice, by looking at the figures.
 MAP_SIZE = (7.0, 5.0)
@@ -309,14 +313,16 @@ def friction_over_speed(
 ) -> FrictionLines:
     """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
     `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are omitted; ``style``:
-    of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR`
-    there. Points that failed, and rest, are omitted."""
+    of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is known to
+    `DRAWN_ERROR` there, and dashed to `LARGEST_BETWEEN`. Points that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {name: column[order] for name, column in columns.items()}
     speed = np.abs(c["speed"])
     load = c["contact_load"] + c["film_load"]
-    line = _line(c)
+    curve = _interpolant(c)
+    error = np.inf if curve is None else between(curve)
+    line = _line(curve) if curve is not None and error <= DRAWN_ERROR else None
     color = style.get("color", figures.BLUE)
     errors: list[Line2D] = []
     if has_interval:
@@ -324,7 +330,9 @@ def friction_over_speed(
         errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        if speed.size > 1:  # a dotted line joins the points, and is no curve
+        if curve is not None and error <= LARGEST_BETWEEN:
+            axes.plot(*_line(curve)[:2], "--", color=color, label=figures.INTERPOLATED_BETWEEN)
+        elif speed.size > 1:  # a dotted line joins the points, and is no curve
             axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN)
         points = {"marker": "o", "ms": 4, "ls": ""} | style
         (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
@@ -338,14 +346,16 @@ def friction_over_speed(
     return FrictionLines(f=f, parts=tuple(of_parts), errors=tuple(errors))
 
 
-def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
-    """Return (speeds, f, its two parts) on the curve through the points, if f is `DRAWN_ERROR` between them."""
+def _interpolant(columns: dict[str, np.ndarray]) -> Interpolant | None:
+    """Return the curve through the points in ``columns``; None where there is none."""
     try:
-        curve = through(columns)
+        return through(columns)
     except (InputError, KeyError):  # too few of them, both directions, or a table without what the curve needs
         return None
-    if between(curve) > DRAWN_ERROR:
-        return None
+
+
+def _line(curve: Interpolant) -> tuple[np.ndarray, ...]:
+    """Return (speeds, f, its two parts) on the ``curve`` through the points."""
     fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * LINE_POINTS)
     contact = curve.boundary(fine)
     film = curve.film(fine)

@@ -197,6 +197,23 @@ def test_lines_of_a_curve_are_omitted(figures, tmp_path, monkeypatch):
             assert lines.intersection(figures[-1].axes[0].get_legend_handles_labels()[1]) == shown
 
 
+@pytest.mark.parametrize("error, label", [(0.2, "interpolated"), (0.6, "not known in between")])
+def test_a_line_between_points_is_interpolated_as_far_as_the_report_states_it(monkeypatch, error, label):
+    """By a straight line, of an estimated error between 5 and 50 %."""
+    speed = np.array([0.01, 1.0])
+    curve = SimpleNamespace(
+        samples=SimpleNamespace(speed=speed), boundary=lambda u: 0.1 - 0.05 * u, film=lambda u: 0 * u
+    )
+    monkeypatch.setattr("lubfric.studies.tables.through", lambda columns: curve)
+    monkeypatch.setattr("lubfric.studies.tables.between", lambda curve: error)
+    axes = new_figure().subplots()
+    friction_over_speed(axes, COLUMNS)
+    names = [line.get_label() for line in axes.lines]
+    assert [name for name in names if name in ("interpolated", "not known in between")] == [label]
+    x, f = data(axes, label)
+    assert label != "interpolated" or np.allclose(f, 0.1 - 0.05 * x)
+
+
 def test_errors_of_f_are_no_assumptions_below_a_curve(figures):
     of_f = [f"{name} error within its tolerance" for name in ("numerical", "sampling", "model-form")]
     errors = [SimpleNamespace(severe=False, is_note=False, assumption=name, what="") for name in of_f]

@@ -1,0 +1,28 @@
+"""The part of the power loss that is rolling resistance, in tables of points."""
+
+import numpy as np
+
+from .._base import FloatArray
+from ..units import printed
+
+# Part of the power loss above which a table of points states the rolling resistance in it. A choice: below it the loss
+# follows from f, load and sliding speed to within a digit.
+TABLED_ROLLING_PART = 0.1
+
+
+def rolling_part(
+    power_loss: FloatArray, sliding_speed: FloatArray, coefficient: FloatArray, load: FloatArray
+) -> FloatArray:
+    """Return the part of the ``power_loss`` [W] that is rolling resistance [W], at points with the ``sliding_speed``
+    [m/s], the friction ``coefficient`` [-] and the ``load`` [N], all (n,)."""
+    return np.asarray(power_loss - np.abs(sliding_speed) * coefficient * load)
+
+
+def is_tabled(rolling: FloatArray, power_loss: FloatArray) -> bool:
+    """Return whether the ``rolling`` part [W] is more than `TABLED_ROLLING_PART` of the ``power_loss`` [W] anywhere."""
+    return bool((rolling > TABLED_ROLLING_PART * np.abs(power_loss)).any())
+
+
+def heading_of_rolling(unit: str) -> str:
+    """Return the heading of the column of rolling resistance in a ``unit``, after that of the power loss."""
+    return f"of it rolling resistance [{printed(unit)}]"
