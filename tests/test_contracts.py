@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
+from toys import Spring
 
 import lubfric
 from lubfric.contact import FlatContact
@@ -612,3 +613,8 @@ def test_a_map_too_fine_for_its_picture_keeps_its_friction(monkeypatch):
     fine = lubfric.friction(scene, 0.01, fields="fine")
     assert fine.coefficient == plain.coefficient and np.array_equal(fine.pressure, plain.pressure)
     assert any("finer ones were not solved" in note for note in fine.report.notes)
+
+
+def test_a_contact_with_one_area_says_what_a_changing_strip_needs():
+    with pytest.raises(lubfric.InputError, match="Spring has one area A.*define Spring.over_strip"):
+        Spring(1e-7, 2e-8, 1.0).over_strip(2e-5, 1e-5)

@@ -24,9 +24,6 @@ class Spring(RoughContact):
     def close(self, film, load, start=None, shape=None):
         return self.state(film, self.gap(load))
 
-    def over_strip(self, half_width, before):
-        return self
-
     def gap(self, load):
         return self.touching - min(self.sigma * (load / self.stiffness) ** (2 / 3), 0.999 * self.touching)
 

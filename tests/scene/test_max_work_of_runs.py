@@ -1,7 +1,6 @@
 """``numerics.max_work`` in every kind of run: what was reached, a status that says so, or a refusal; by counted work."""
 
 from functools import partial
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ import lubfric
 from lubfric._base import limited_work
 from lubfric.errors import ConvergenceError, WorkLimitError
 from lubfric.scene import Harmonic, Transient
-from lubfric.time.load_sharing_solver import LoadSharingSolver
+from lubfric.time.load_sharing_solver import ContactOfMoment
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 # A smooth load of half a period: cheap, with contact.
@@ -65,7 +64,8 @@ def test_a_contact_without_a_solution_makes_a_step_shorter_but_a_limit_ends_the_
         def close(self, *_):
             raise error
 
-    step = partial(LoadSharingSolver._contact_at, SimpleNamespace(patch=Patch()), np.ones(3), 1.0, None)
+    contact = ContactOfMoment(patch=Patch(), to_patch=np.eye(3))
+    step = partial(contact.closed, np.ones(3), 1.0, None)
     if isinstance(error, WorkLimitError):
         with pytest.raises(WorkLimitError):
             step()
