@@ -31,14 +31,18 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
     units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
-    heads = [column_heading(swept, units[swept]), "f", INTERVAL_OF_F, *(column_heading(n, units[n]) for n in OF_POINT)]
-    heads.append(ASPERITY_LOAD_RATIO)
     sliding = curve.slide_roll_ratios * getattr(curve, "speed")
     load = curve["contact_load"] + curve["film_load"]
     rolling = rolling_part(curve["power_loss"], sliding, curve["coefficient"], load)
     has_rolling = is_tabled(rolling, curve["power_loss"])
-    if has_rolling:
-        heads.insert(heads.index(INTERVAL_OF_F) + 2, heading_of_rolling(units["power_loss"]))
+    (of_power, *of_others) = (column_heading(name, units[name]) for name in OF_POINT)
+    of_rolling = [heading_of_rolling(units["power_loss"])] if has_rolling else []
+    heads = [
+        *(column_heading(swept, units[swept]), "f", INTERVAL_OF_F, of_power),
+        *of_rolling,
+        *of_others,
+        ASPERITY_LOAD_RATIO,
+    ]
     rolling = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
     rows = []
     for index, point in enumerate(curve.points):

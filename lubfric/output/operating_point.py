@@ -37,24 +37,14 @@ def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, st
     """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no
     point has an answer."""
     name = curve.SWEPT[0]
-    away = _distances(getattr(curve, name), operating_point_of(scene, name), is_ratio=name == "speed")
-    index = int(np.where(np.isfinite(curve["coefficient"]), away, np.inf).argmin())
+    scene_value = operating_point_of(scene, name)
+    away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - scene_value), np.inf)
+    index = int(away.argmin())
     point = curve.points[index]
     if point is None:
         return None
     ratio = float(curve.ratio[index]) if isinstance(curve, TractionResult) else scene.motion.slide_roll_ratio
     return point, place_on_curve(curve, index), ratio * point.speed
-
-
-def _distances(values: np.ndarray, own: float, *, is_ratio: bool) -> np.ndarray:
-    """Return how far ``values`` are from the scene's ``own`` one: by their difference, or by the logarithm of their ratio where
-    that is what counts, as of speeds."""
-    differences = np.abs(values - own)
-    if not is_ratio or own == 0:
-        return differences
-    with np.errstate(divide="ignore"):
-        logarithms = np.abs(np.log(np.abs(values / own)))
-    return np.where(values * own > 0, logarithms, np.inf if (values * own > 0).any() else differences)
 
 
 def place_on_curve(curve: CurveResult, index: int) -> str:

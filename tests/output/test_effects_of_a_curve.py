@@ -8,7 +8,6 @@ from scene_text import BODIES_AND_OIL
 import lubfric
 from lubfric.models.shared import effect_in_words
 from lubfric.output import main
-from lubfric.output.operating_point import nearest_solved
 
 MOTION = "[motion]\nentrainment_speed = 1e-4\nspeeds = [1e-4, 0.03, 0.3]\n"
 SCENE = BODIES_AND_OIL.replace("= 0.09", "= [0.08, 0.1]") + MOTION
@@ -39,10 +38,3 @@ def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_
     for what, (_, speed, words) in largest.items():
         (row,) = [row for row in rows if what[1:20] in row]
         assert f"|U = {speed:.4g} m/s|" in row and words.partition(": f ")[2].partition(";")[0] in row
-
-
-def test_the_answer_is_for_the_speed_nearest_by_its_ratio():
-    """0.17 m/s is nearer to 0.3 than 0.45 by the difference, and farther on the axis of a Stribeck curve."""
-    scene = lubfric.load_scene("paper").with_(surface={"sq": 0.0}, motion={"entrainment_speed": 0.3})
-    curve = lubfric.stribeck(scene, [0.17, 0.45])
-    assert nearest_solved(scene, curve)[1] == "at U = 0.45 m/s"
