@@ -323,7 +323,7 @@ class FlatContact(RoughContact):
         )
 
     def over_strip(self, half_width: float, before: float) -> FlatContact:
-        """The load is spread over another strip."""
+        """Return the contact with its load spread over the other strip."""
         ratio = half_width / before
         return replace(self, x=ratio * self.x, area=ratio * self.area, columns=ratio * self.columns)
 

@@ -38,7 +38,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
     tolerance: float
 
     def over_strip(self, half_width: float, before: float) -> HalfSpaceContact:
-        """Its cells inside the strip are others."""
+        """Return the contact with other cells of it inside the strip."""
         return replace(self, weight=area_weight("hertz", half_width, self.x, self.spacing[0]))
 
     def close(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -42,7 +43,7 @@ class ContactOfMoment:
     patch: RoughContact
     to_patch: np.ndarray
 
-    @property
+    @cached_property
     def mean_row(self) -> np.ndarray:
         """The operator from H to the mean film [m] over A."""
         mean_row: np.ndarray = self.patch.weight @ self.to_patch / self.patch.weight.sum()
@@ -96,18 +97,23 @@ class LoadSharingSolver:
     def contact_at(self, time: float) -> ContactOfMoment:
         """Return the rough contact of the strip with the area A of ``time`` [s]: the Hertz strip of the load and the radius just
         before it, or the complete patch, as in a steady contact."""
-        patch = self.prepared.rough_contact
         bodies = self.scene.bodies
         history = self.setting.line_history
         load = history.load.before(time) / history.width
         half_width = hertz.line_half_width(load, history.radius.before(time), history.e_prime)
         if self.scene.contact.region == "box" or half_width == bodies.half_width:
-            return ContactOfMoment(patch=patch, to_patch=self.to_patch)
+            return self._contact_of_scene
+        patch = self.prepared.rough_contact
         of_moment = patch.over_strip(half_width, bodies.half_width)
         is_same = np.array_equal(of_moment.x, patch.x)
         return ContactOfMoment(
             patch=of_moment, to_patch=self.to_patch if is_same else operator_to(self.setting, of_moment.x)
         )
+
+    @cached_property
+    def _contact_of_scene(self) -> ContactOfMoment:
+        """The contact with the area A of the scene, that of every moment where load and radius are constant."""
+        return ContactOfMoment(patch=self.prepared.rough_contact, to_patch=self.to_patch)
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Return the relative size of a ``difference`` of films."""
