@@ -71,6 +71,7 @@ from ..time import (
 )
 from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
+from .rolling_part import rolling_part
 
 # Part of the largest f by which f may be above the line between two ratios, from which on this is stated before the
 # solve [-]. A choice: the closed form does not know f better.
@@ -156,8 +157,8 @@ class SceneEstimate:
 def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
     """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling
     resistance, and of a large part its error at 95 %, as text to be appended; "" for a small part."""
-    sliding = abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
-    rolling = point.power_loss - sliding
+    load = point.contact_load + point.film_load
+    rolling = float(rolling_part(point.power_loss, sliding_speed, point.coefficient, load))
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         return ""
     part = as_beside(rolling, point.power_loss, *point.power_loss_interval, unit="W")

@@ -11,6 +11,7 @@ from ..time import TransientResult, counts_in_average, in_motion, rolls, run_mod
 from ..units import plain_number, with_interval, worded
 from .films_in_words import GAP_OF_TOUCHING, is_gap_of_touching
 from .markup import number_or_dash
+from .status import wide_by_model
 
 
 def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
@@ -140,9 +141,7 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may
     have a narrower interval."""
     answers = f"The {run_model_of(scene).model_in_words} answers at all times."
-    target = scene.numerics.model_tolerance
-    wide = counts_in_average(result.columns) & (result.uncertainty.model > target)
-    if not wide.any():
+    if not wide_by_model(scene, result).any():
         return answers
     return (
         f"{answers} For a narrower interval of a moment, solve a steady point with its values "

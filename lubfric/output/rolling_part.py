@@ -11,10 +11,13 @@ TABLED_ROLLING_PART = 0.1
 
 
 def rolling_part(
-    power_loss: FloatArray, sliding_speed: FloatArray, coefficient: FloatArray, load: FloatArray
+    power_loss: FloatArray | float,
+    sliding_speed: FloatArray | float,
+    coefficient: FloatArray | float,
+    load: FloatArray | float,
 ) -> FloatArray:
     """Return the part of the ``power_loss`` [W] that is rolling resistance [W], at points with the ``sliding_speed``
-    [m/s], the friction ``coefficient`` [-] and the ``load`` [N], all (n,)."""
+    [m/s], the friction ``coefficient`` [-] and the ``load`` [N], all (n,) or of one point."""
     return np.asarray(power_loss - np.abs(sliding_speed) * coefficient * load)
 
 

@@ -165,12 +165,16 @@ def missed_by_run(scene: Scene, result: TransientResult) -> list[str]:
             f"{sentence(each.place).removesuffix('.')} the {violation.what} is above {violation.limit:g} "
             f"{violation.unit}, up to {worst}."
         )
-    tolerance = scene.numerics.model_tolerance
-    errors = np.where(counts_in_average(result.columns), result.uncertainty.model, 0.0)
-    wide = int(np.count_nonzero(errors > tolerance))
-    if wide and Assumption.MODEL_FORM_ERROR not in named:
+    wide = wide_by_model(scene, result)
+    if wide.any() and Assumption.MODEL_FORM_ERROR not in named:
         sentences.append(
-            f"At {counted(wide, 'outputs')} the model-form error of f is above {100 * tolerance:g} % "
-            f"(numerics.model_tolerance), up to {percent(float(np.nanmax(errors)))}."
+            f"At {counted(int(wide.sum()), 'outputs')} the model-form error of f is above "
+            f"{100 * scene.numerics.model_tolerance:g} % (numerics.model_tolerance), up to "
+            f"{percent(float(result.uncertainty.model[wide].max()))}."
         )
     return sentences
+
+
+def wide_by_model(scene: Scene, result: TransientResult) -> np.ndarray:
+    """Return the outputs (bools) of a run of ``scene`` whose model-form error of f is above its tolerance."""
+    return counts_in_average(result.columns) & (result.uncertainty.model > scene.numerics.model_tolerance)
