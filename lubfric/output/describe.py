@@ -237,7 +237,7 @@ def estimate_scene(
     model, seconds = _model(work, speeds, ratios, measured or {})
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved and not len(ratios):
-        beside += work.at(min(speeds, key=lambda speed: abs(speed - scene_speed))).fine_fields_seconds
+        beside += work.at(speeds[index_of_nearest(speeds, scene_speed, are_speeds=True)]).fine_fields_seconds
     within = _how_well_known(work, speeds, ratios, measured or {})
     more = f"{in_words(beside)} for start, pictures and files of 'lubfric run'"
     cost = f"about {in_words(seconds)} of processor time for {over} ({within}), and {more}" if seconds else ""
@@ -367,6 +367,18 @@ def is_among(value: float, values: Iterable[float]) -> bool:
 def belongs_to_curve(speed: float, speeds: Iterable[float]) -> bool:
     """Return whether a ``speed`` [m/s] and the ``speeds`` of a curve are in motion, all in the same direction."""
     return speed != 0 and all(other * speed >= 0 for other in speeds)
+
+
+def index_of_nearest(values: Sequence[float], value: float, *, are_speeds: bool) -> int:
+    """Return the index of the one of the ``values`` nearest to a ``value``: by the ratio of speeds [m/s], those in its
+    direction first; by the difference of slide-roll ratios, or where the ``value`` is at rest."""
+
+    def distance(other: float) -> tuple[bool, float]:
+        if not are_speeds or value == 0:
+            return False, abs(other - value)
+        return other * value < 0, abs(math.log(abs(other / value))) if other != 0 else math.inf
+
+    return min(range(len(values)), key=lambda index: distance(values[index]))
 
 
 def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstimate]:
@@ -537,7 +549,7 @@ def _speed_table(
     chosen = ("deterministic strips",) if scene.numerics.model == AUTO else ()
     if sample.is_resolved:
         table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
-    operating_point = min(speeds, key=lambda speed: abs(speed - scene.motion.entrainment_speed))
+    operating_point = speeds[index_of_nearest(speeds, scene.motion.entrainment_speed, are_speeds=True)]
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], operating_point, speeds[-1]}):
         one = work.at(speed, measured)
         film = ("", "", "0", "0", "no entrainment: all load")

@@ -9,7 +9,7 @@ from ..estimate import FrictionResult
 from ..quantities import worded_value
 from ..scene import Scene
 from ..studies import CurveResult, TractionResult
-from .describe import belongs_to_curve, is_among
+from .describe import belongs_to_curve, index_of_nearest, is_among
 
 
 def operating_point_of(scene: Scene, name: str) -> float:
@@ -37,12 +37,13 @@ def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, st
     """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no
     point has an answer."""
     name = curve.SWEPT[0]
-    scene_value = operating_point_of(scene, name)
-    away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - scene_value), np.inf)
-    index = int(away.argmin())
-    point = curve.points[index]
-    if point is None:
+    solved = np.flatnonzero(np.isfinite(curve["coefficient"])).tolist()
+    if not solved:
         return None
+    values = getattr(curve, name)[solved].tolist()
+    index = solved[index_of_nearest(values, operating_point_of(scene, name), are_speeds=name == "speed")]
+    point = curve.points[index]
+    assert point is not None
     ratio = float(curve.ratio[index]) if isinstance(curve, TractionResult) else scene.motion.slide_roll_ratio
     return point, place_on_curve(curve, index), ratio * point.speed
 

@@ -35,7 +35,7 @@ from .commands import (
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .curve_answer import gap_notes
 from .curve_picture import draw_curve, drawable, record_of_point, table_of, title_of_curve
-from .describe import SceneEstimate, is_among, rolling_in_words, speeds_of_curve
+from .describe import SceneEstimate, index_of_nearest, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, vtk_bytes
 from .operating_point import operating_point_not_solved, operating_point_of
 from .picture_options import PictureOptions
@@ -369,7 +369,7 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
     _say_operating_point(scene, requested, are_of_command=speeds is not None)
     validate.array("speeds", requested, "m/s", ndim=1)
     if not chosen:
-        return requested, [min(requested, key=lambda speed: abs(speed - own))]
+        return requested, [requested[index_of_nearest(requested, own, are_speeds=True)]]
     solved = list(requested)
     with_fields = []
     for speed in chosen:
