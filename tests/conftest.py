@@ -12,8 +12,8 @@ from types import ModuleType
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
-# Python keeps what it compiled even where the environment says no: each worker would compile the tests for 8 s, and each
-# process that a test starts the library for 0.3 s.
+# Python keeps what it compiled even where the environment says no: each worker would compile the tests for 8 s, and
+# each process that a test starts the library for 0.3 s.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
@@ -32,7 +32,8 @@ SLOW = frozenset((Path(__file__).parent / "slow_tests.txt").read_text(encoding="
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items) -> None:
     """Tests marked slow where they stand belong to ``python -m verification --full`` (`long_tests`): they are ``study``
-    as well, and run only where ``-m`` asks for them. Those of slow_tests.txt are part of the default run, not of the fast tests."""
+    as well, and run only where ``-m`` asks for them. Those of slow_tests.txt are part of the default run, not of the
+    fast tests."""
     studies = {item for item in items if item.get_closest_marker("slow")}
     for item in items:
         if item.get_closest_marker("slow"):
@@ -89,8 +90,8 @@ def draws(monkeypatch) -> Callable[..., None]:
 
 @pytest.fixture
 def load_sharing(monkeypatch) -> None:
-    """Scenes that leave the model open are solved by load sharing alone, loosely: pages and scripts run in a fraction of the
-    time, and what the default model answers is the matter of other tests."""
+    """Scenes that leave the model open are solved by load sharing alone, loosely: pages and scripts run in a fraction
+    of the time, and what the default model answers is the matter of other tests."""
     import lubfric
 
     real = lubfric.load_scene

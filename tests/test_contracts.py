@@ -571,7 +571,8 @@ def test_fine_fields_are_those_of_one_solve(model):
 
 @pytest.mark.parametrize("model, is_solved_again", [("deterministic", False), ("quick", True)])
 def test_the_picture_of_a_patch_is_on_cells_that_show_it_and_no_finer(monkeypatch, model, is_solved_again):
-    """Cells of 1 µm, twice the native ones: 49 across the Hertz strip, where 2 µm are 25 and fewer than 40 are too few."""
+    """Cells of 1 µm, twice the native ones: 49 across the Hertz strip, where 2 µm are 25 and fewer than 40 are too
+    few."""
     scene = LOOSE.with_(
         numerics={"sampling": "patch", "model": model, "tolerance": 0.01},
         contact={"shape": (192, 64), "spacing": 0.5e-6},
@@ -604,7 +605,8 @@ def test_fields_are_solved_again_or_not_as_requested():
 
 
 def test_a_map_too_fine_for_its_picture_keeps_its_friction(monkeypatch):
-    """A patch on so many cells that no film is solved on them: f and its fields are those of the long cells, with a note."""
+    """A patch on so many cells that no film is solved on them: f and its fields are those of the long cells, with a
+    note."""
     scene = LOOSE.with_(
         numerics={"sampling": "patch", "model": "quick"}, contact={"shape": (96, 96), "spacing": 0.5e-6}
     )

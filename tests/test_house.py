@@ -31,7 +31,8 @@ TWO_VERBS = re.compile(
 )
 # A dotted name of lubfric in backquotes.
 DOTTED = re.compile(r"`(lubfric(?:\.\w+)+)\b")
-# Where a number comes from: a publication, a standard, a definition, a file, a command, a measurement, or an honest choice.
+# Where a number comes from: a publication, a standard, a definition, a file, a command, a measurement, or an honest
+# choice.
 SOURCE = re.compile(
     r"doi|\b(18|19|20)\d\d\b|Eqs?\. ?\(|\b(ISO|DIN|ASTM|SI)\b|docs/|\.(toml|csv)\b|python -m|verification[./]|definition"
     r"|[Mm]easured(?! (map|surface|point|height|area))|[Ff]itted|[Hh]alved|[Hh]alf and twice|[Hh]alf (changes|takes)|[Cc]hosen|[Cc]hoice|[Cc]onvention"
@@ -122,7 +123,8 @@ def test_no_two_classes_have_one_name(package):
 
 
 def test_no_two_constants_have_one_name():
-    """In lubfric a constant means one thing: its value is written once, and imported elsewhere. Type variables aside."""
+    """In lubfric a constant means one thing: its value is written once, and imported elsewhere. Type variables
+    aside."""
     homes = defaultdict(set)
     for path, tree in trees("lubfric").items():
         for node in tree.body:
@@ -136,7 +138,8 @@ def test_no_two_constants_have_one_name():
 
 
 def has_number(node: ast.AST) -> bool:
-    """Return whether a value is made of numbers of its own: an index, or what a function or a loop in it has, is none."""
+    """Return whether a value is made of numbers of its own: an index, or what a function or a loop in it has, is
+    none."""
     if isinstance(node, ast.Constant):
         return isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
     if isinstance(node, ast.Subscript):
@@ -147,7 +150,8 @@ def has_number(node: ast.AST) -> bool:
 
 def constants_without_source(tree: ast.Module, text: str) -> list[str]:
     """Return the numeric constants of a module whose comment, beside them or above them and the constants before them,
-    neither matches `SOURCE` nor has three numbers, as those of a measurement; none where the module names one for all."""
+    neither matches `SOURCE` nor has three numbers, as those of a measurement; none where the module names one for
+    all."""
     if SOURCE_OF_MODULE in (ast.get_docstring(tree) or ""):
         return []
     lines = text.splitlines()
@@ -256,7 +260,8 @@ def test_tests_speak_public_names():
 
 
 def public_functions() -> Iterator[tuple[str, object]]:
-    """Yield the functions, and the methods of the classes, that lubfric and its rooms offer, each once with its name."""
+    """Yield the functions, and the methods of the classes, that lubfric and its rooms offer, each once with its
+    name."""
     rooms = [lubfric]
     rooms += [import_module(m.name) for m in pkgutil.iter_modules(lubfric.__path__, "lubfric.") if m.ispkg]
     offered = {}

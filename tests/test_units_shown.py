@@ -1,4 +1,5 @@
-"""Numbers with their intervals: one way for all, in a unit of people, without negative zeros or programmers' exponents."""
+"""Numbers with their intervals: one way for all, in a unit of people, without negative zeros or programmers'
+exponents."""
 
 import math
 

@@ -265,8 +265,8 @@ def key_above(axes: Axes, columns: int = 3) -> int:
 
 
 def _key_entries(axes: Axes) -> tuple[list[Any], list[str]]:
-    """Return the samples and the labels of the key of ``axes``: each label once, with a grey sample and behind the others
-    where several lines have it."""
+    """Return the samples and the labels of the key of ``axes``: each label once, with a grey sample and behind the
+    others where several lines have it."""
     by_label: dict[str, list[Any]] = {}
     for handle, label in zip(*axes.get_legend_handles_labels()):
         by_label.setdefault(label, []).append(handle)

@@ -1,5 +1,5 @@
-"""Roots: a bracketed one of an increasing function, which stops by the value of the function, not by the step; and one by the
-secant."""
+"""Roots: a bracketed one of an increasing function, which stops by the value of the function, not by the step; and one
+by the secant."""
 
 from __future__ import annotations
 
@@ -160,8 +160,8 @@ def _next_fraction(a: tuple[float, float], b: tuple[float, float], c: tuple[floa
 def secant_root(f: Callable[[float], float], guess: float, *, accuracy: float) -> float:
     """Return the root of a smooth ``f`` near ``guess`` by the secant, until a step is at most ``accuracy``.
 
-    Raises `ConvergenceError`. ``scipy.optimize.newton`` takes the same steps; its import takes 0.1 s, a twentieth of a first point
-    of the scene "paper".
+    Raises `ConvergenceError`. ``scipy.optimize.newton`` takes the same steps; its import takes 0.1 s, a twentieth of a
+    first point of the scene "paper".
     """
     last = guess
     now = guess + math.copysign(SECANT_STEP, guess) * (1.0 + abs(guess))

@@ -78,8 +78,9 @@ class RoughContact(ABC):
         """
 
     def over_strip(self, half_width: float, before: float) -> RoughContact:
-        """Return the same contact where the area A is the Hertz strip of ``half_width`` [m], in place of that of ``before`` [m]: for
-        a run in time whose load or radius changes. Raises `InputError` for a kind of contact that does not define it."""
+        """Return the same contact where the area A is the Hertz strip of ``half_width`` [m], in place of that of
+        ``before`` [m]: for a run in time whose load or radius changes. Raises `InputError` for a kind of contact that
+        does not define it."""
         message = f"a contact of type {type(self).__name__} has one area A, and the Hertz strip of this run changes"
         raise InputError(message, recommendation=f"define {type(self).__name__}.over_strip(half_width, before)")
 

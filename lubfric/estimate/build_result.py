@@ -107,8 +107,8 @@ def result_of(
 
 
 def _violations_by_model_error(scene: Scene, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:
-    """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it. ``has_interval``:
-    whether f has an interval."""
+    """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it.
+    ``has_interval``: whether f has an interval."""
     if answer.accepts_model_error:
         return
     yield from violations_by_model_error(

@@ -62,7 +62,8 @@ def inputs_to_quote(
 
 
 def span_to_quote(name: str, values: Sequence[float], unit: str) -> str:
-    """Return the range of ``values`` in the SI ``unit`` as text after their ``name``: "entrainment speeds 0.1 to 3 m/s"."""
+    """Return the range of ``values`` in the SI ``unit`` as text after their ``name``: "entrainment speeds 0.1 to 3
+    m/s"."""
     low = min(values)
     high = max(values)
     if low == high:

@@ -10,8 +10,8 @@ from ..scene import Scene, source_of, typical, value_of
 # The names of the laws of the viscosity over pressure in papers.toml, by their values of the key.
 VISCOSITY_LAWS = {"roelands": "Roelands", "barus": "Barus"}
 
-# The names of the sources of typical values in papers.toml, by an author whom the source in typical.toml names. Data sheets and
-# suppliers' guides are in none.
+# The names of the sources of typical values in papers.toml, by an author whom the source in typical.toml names. Data
+# sheets and suppliers' guides are in none.
 TYPICAL_VALUES = {"Arana": "typical values, Arana", "Zhang": "typical values, Zhang"}
 
 
@@ -65,8 +65,8 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
 
 
 def _typical_values(scene: Scene, use: MethodUse) -> dict[str, bool]:
-    """Return which sources of typical values the ranges of the inputs are from, of bodies where asperities carry load, and of
-    the lubricant where a film does."""
+    """Return which sources of typical values the ranges of the inputs are from, of bodies where asperities carry load,
+    and of the lubricant where a film does."""
     is_used = {"bodies": use.has_contact, "lubricant": use.has_film}
     texts = [
         source_of(key, word)

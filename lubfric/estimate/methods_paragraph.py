@@ -25,8 +25,8 @@ def methods_paragraph(
     uncertainties: Sequence[Uncertainty],
     inputs: Sequence[str],
 ) -> str:
-    """Return the paragraph: program and ``version``, by which models and on which cells the points are (``decisions``), their
-    ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain by their
+    """Return the paragraph: program and ``version``, by which models and on which cells the points are (``decisions``),
+    their ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain by their
     ``uncertainties``."""
     by_model = Counter(decision.model for decision in decisions)
     total = sum(by_model.values())

@@ -25,8 +25,8 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
 
 
 def rolling_resistance_error(error: float, by_model: float) -> float:
-    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and that ``by_model`` at 95 %
-    (`lubfric.models.Model.rolling_error`)."""
+    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and that ``by_model``
+    at 95 % (`lubfric.models.Model.rolling_error`)."""
     return math.hypot(2.0 * error, by_model)
 
 

@@ -37,8 +37,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     doi:10.1007/s11249-015-0536-z).
 
     The residuals are relative. All fields are of one solve, on the same cells: ``result.fields`` says which, and
-    ``heights``, ``pressure``, ``gap``, ``x`` and ``y`` are read from it. ``fields=True`` solves a single patch on its own
-    cells.
+    ``heights``, ``pressure``, ``gap``, ``x`` and ``y`` are read from it. ``fields=True`` solves a single patch on its
+    own cells.
 
     Attributes
     ----------
@@ -88,8 +88,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def not_in_interval(self) -> str:
-        """Heat that neither f nor its interval includes, and the range of an estimated pressure-viscosity coefficient, which the
-        interval does not include, as text; "" if there are none."""
+        """Heat that neither f nor its interval includes, and the range of an estimated pressure-viscosity coefficient,
+        which the interval does not include, as text; "" if there are none."""
         heat = [violation for violation in self.validity if violation.assumption == Assumption.HEAT_INCLUDED]
         parts = [
             f"f and its interval are without the heat of the film, which lowers f by up to {each.value_in_words} %"
@@ -156,8 +156,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return self._field("gap")
 
     def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)) -> "Axes":
-        """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line, and the edges of the Hertz
-        strip, dashed; returns the axes. Needs ``fields=True``, and contact."""
+        """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line, and the edges of the
+        Hertz strip, dashed; returns the axes. Needs ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)
         fields = self._fields_with("pressure")
         pressure, unit = figures.in_unit_for(fields.pressure[:, rows], "Pa")
@@ -195,8 +195,8 @@ def cited(
     inputs: Sequence[str] = (),
 ) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
-    "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and the
-    ``inputs`` that they share."""
+    "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and
+    the ``inputs`` that they share."""
     validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
@@ -210,7 +210,8 @@ def cited(
 
 
 def cite_together(points: Iterable[FrictionResult], format: str = "text", more_inputs: Sequence[str] = ()) -> str:
-    """Return the papers of several results, each once, in the ``format`` of `cited`; ``more_inputs``: of them, as text."""
+    """Return the papers of several results, each once, in the ``format`` of `cited`; ``more_inputs``: of them, as
+    text."""
     solved = list(points)
     methods = [name for point in solved for name in point.methods]
     return cited(

@@ -17,10 +17,10 @@ def solve_to_tolerance(
 ) -> SampleSolution:
     """Solve ``prepared`` by ``model`` at ``speed`` [m/s] on as many strips, of cells as short, as its tolerances need.
 
-    More strips follow until the standard error of f is within ``numerics.sampling_tolerance``; shorter cells, each
-    time half as long, until their effect can be corrected for, where the model takes them. ``for_fields``: on the cells on which a sample shows its
-    fields (`Sample.on_field_cells`); ``control``: what a cheaper model knows of these strips. What the answer needs beyond
-    these strips is not solved (`SampleSolution.completed`). Raises `ConvergenceError`.
+    More strips follow until the standard error of f is within ``numerics.sampling_tolerance``; shorter cells, each time
+    half as long, until their effect can be corrected for, where the model takes them. ``for_fields``: on the cells on
+    which a sample shows its fields (`Sample.on_field_cells`); ``control``: what a cheaper model knows of these strips.
+    What the answer needs beyond these strips is not solved (`SampleSolution.completed`). Raises `ConvergenceError`.
     """
     sample = prepared.sample
     if for_fields and model.takes_cells_of_sample:

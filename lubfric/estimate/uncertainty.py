@@ -173,8 +173,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def budget_in_words(self) -> dict[str, str]:
-        """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ; in f itself, as
-        "-0.0004 to +0.0025", where it `is_near_zero`."""
+        """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ; in f itself,
+        as "-0.0004 to +0.0025", where it `is_near_zero`."""
         sides: dict[str, tuple[float, float]] = {
             name: getattr(self, part.sides) for name, part in PARTS.items() if part.sides
         }
@@ -196,7 +196,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def is_near_zero(self) -> bool:
-        """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to it."""
+        """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to
+        it."""
         finite = [part for part in self.budget.values() if math.isfinite(part)]
         return bool(is_near_zero(self.coefficient, max(finite, default=0.0)))
 
@@ -219,8 +220,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def largest_part_and_advice(self) -> tuple[str, str]:
-        """The name of the largest part of the budget, and its cause and what reduces it as text to be appended; both "" where
-        that is not known."""
+        """The name of the largest part of the budget, and its cause and what reduces it as text to be appended; both ""
+        where that is not known."""
         parts = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not parts or not math.isfinite(self.sampling):
             return "", ""
@@ -261,7 +262,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         return f" (without the sampling error {words})" if words else ""
 
     def short(self, coefficient: float) -> str:
-        """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in ``notes``."""
+        """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in
+        ``notes``."""
         unknown = "" if math.isfinite(self.sampling) else f"; no 95 % interval{self._others_in_words}"
         parts = self._in_words(self.budget_in_words["sampling"])
         shown = with_interval(coefficient, *self.interval)
@@ -283,7 +285,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         return "; ".join((f"{of_what}{', '.join(stated)}", *self.cut))
 
 
-# Columns of the uncertainty of f in every table: the ends of its interval, its parts, and both sides of those that have two.
+# Columns of the uncertainty of f in every table: the ends of its interval, its parts, and both sides of those that have
+# two.
 UNCERTAINTY_COLUMNS = ("interval_low", "interval_high", *COLUMN_OF_ERROR.values(), *OF_SIDES, "sampling_tolerance")
 
 
@@ -366,9 +369,9 @@ def with_part(uncertainty: Uncertainty, below: float, above: float) -> Uncertain
 def interval(
     value: float, *, numerical: float, sampling_error: StandardError, model_error: tuple[float, float]
 ) -> tuple[float, float]:
-    """Return value (1 ± sqrt(numerical² + (t sampling error)² + model-form error²)), t the 97.5 % quantile of Student's t
-    with the degrees of freedom of the ``sampling_error``; ``model_error``: the model-form error, towards 0 and away from
-    it; it counts where it is known."""
+    """Return value (1 ± sqrt(numerical² + (t sampling error)² + model-form error²)), t the 97.5 % quantile of Student's
+    t with the degrees of freedom of the ``sampling_error``; ``model_error``: the model-form error, towards 0 and away
+    from it; it counts where it is known."""
     error = sampling_error.value
     if not math.isfinite(error):
         return math.nan, math.nan

@@ -62,8 +62,8 @@ class WorkOfPoints:
         self._of_models: dict[float, list[WorkEstimate]] = {}
 
     def at(self, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED) -> PointWorkEstimate:
-        """Return what a point at ``speed`` [m/s] will take; ``measured``: by the name of a model what its first steps say of
-        the time of its strips."""
+        """Return what a point at ``speed`` [m/s] will take; ``measured``: by the name of a model what its first steps
+        say of the time of its strips."""
         if speed not in self._of_models:
             expected: list[WorkEstimate] = []
             for model in models_up_to(AUTO):
@@ -80,7 +80,8 @@ class WorkOfPoints:
 def estimated_work_of_point(
     scene: Scene, sample: Sample, surface: Surface, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED
 ) -> PointWorkEstimate:
-    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; other arguments as of `WorkOfPoints`."""
+    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; other arguments as of
+    `WorkOfPoints`."""
     return WorkOfPoints(scene, sample, surface).at(speed, measured)
 
 
@@ -122,9 +123,9 @@ def expected_violations(
 ) -> ExpectedViolations:
     """Return the limits that will be exceeded at ``speeds`` [m/s] (`Model.expected_violations`).
 
-    They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those that the
-    model that is expected to answer has in addition. ``sample`` and ``surface``: as of `estimated_work_of_point`; ``work``: the
-    estimates that are known.
+    They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those
+    that the model that is expected to answer has in addition. ``sample`` and ``surface``: as of
+    `estimated_work_of_point`; ``work``: the estimates that are known.
     """
     first = models_that_may_answer(scene.numerics.model)[0]
     expected = first.expected_violations(scene, speeds)
@@ -149,8 +150,8 @@ def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:
 def seconds_of_points(
     points: Sequence[PointWorkEstimate], count: float | None = None, done: Container[str] = ()
 ) -> float:
-    """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them, where the shared work
-    named in ``done`` was done before."""
+    """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them, where the shared
+    work named in ``done`` was done before."""
     if not points:
         return 0.0
     shared: dict[str, float] = {}

@@ -86,8 +86,8 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
 
 
 def prepare_on_sample(scene: Scene, sample: Sample) -> Prepared:
-    """Return ``scene`` made ready on its ``sample``, which `lubfric.samples.sample_of` made of its own maps and which is not made
-    again."""
+    """Return ``scene`` made ready on its ``sample``, which `lubfric.samples.sample_of` made of its own maps and which
+    is not made again."""
     check_by_model(scene, has_one_map_for_all_bodies=False)
     return _on_sample(scene, sample, has_given_map=False, has_given_contact=False)
 
@@ -143,7 +143,8 @@ def prepared_with(scene: Scene | Prepared, tolerance: float | None, model_name: 
 
 
 def with_boundary_friction_at(prepared: Prepared, speed: float) -> Prepared:
-    """Return ``prepared`` with the f_b that it has at ``speed`` [m/s]; itself where f_b does not depend on the speed."""
+    """Return ``prepared`` with the f_b that it has at ``speed`` [m/s]; itself where f_b does not depend on the
+    speed."""
     scene = prepared.scene.at_speed(speed)
     return prepared if scene == prepared.scene else prepare(scene, like=prepared)
 

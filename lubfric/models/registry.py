@@ -24,8 +24,8 @@ def model_named(name: str) -> Model:
 
 
 def title_of(name: str) -> str:
-    """Return what pictures and texts call the model of this ``name`` (`Model.title`); of a name that `MODELS` does not have, the
-    name with "model"."""
+    """Return what pictures and texts call the model of this ``name`` (`Model.title`); of a name that `MODELS` does not
+    have, the name with "model"."""
     return next((model.title for model in MODELS if model.name == name), f"{name} model")
 
 
@@ -37,8 +37,8 @@ def models_up_to(name: str) -> tuple[Model, ...]:
 
 
 def models_cheaper_than(model: Model) -> tuple[Model, ...]:
-    """Return the models that are cheaper than ``model``, the cheapest first: by its name, or, where no model of `MODELS`
-    has it, the cheapest alone."""
+    """Return the models that are cheaper than ``model``, the cheapest first: by its name, or, where no model of
+    `MODELS` has it, the cheapest alone."""
     names = [each.name for each in MODELS]
     return MODELS[: names.index(model.name)] if model.name in names else MODELS[:1]
 

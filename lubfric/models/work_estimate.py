@@ -65,8 +65,8 @@ class WorkEstimate:
     asperities: str = ""
 
     def as_measured(self, measured: "MeasuredTime") -> "WorkEstimate":
-        """Return the same with the time of moving roughness that is ``measured``: without an answer where a strip takes so long that
-        the solve ends after its first steps."""
+        """Return the same with the time of moving roughness that is ``measured``: without an answer where a strip takes
+        so long that the solve ends after its first steps."""
         times = measured.over_expected
         if times * self.strip_seconds > measured.most_strip_seconds:
             return replace(
@@ -84,12 +84,9 @@ class WorkEstimate:
 class MeasuredTime:
     """What a strip of moving roughness takes, as measured on its first steps in time.
 
-    Attributes
-    ----------
-    over_expected : processor time of the strip over that of `WorkEstimate`
-    steps : number of steps in time that were measured
-    seconds : processor time [s] of the measurement
-    most_strip_seconds : processor time [s] of a strip above which its solve ends after so many steps; infinite: none does
+    Attributes ---------- over_expected : processor time of the strip over that of `WorkEstimate` steps : number of
+    steps in time that were measured seconds : processor time [s] of the measurement most_strip_seconds : processor time
+    [s] of a strip above which its solve ends after so many steps; infinite: none does
     """
 
     over_expected: float

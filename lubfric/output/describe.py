@@ -114,8 +114,8 @@ SPEED_ROUNDING = 1e-9
 STANDSTILL_PART = 1e-8
 # Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01
-# Part of the power loss from which the error of the rolling resistance in it is stated. A choice: a smaller part changes the loss by less
-# than 3 % at the largest error.
+# Part of the power loss from which the error of the rolling resistance in it is stated. A choice: a smaller part
+# changes the loss by less than 3 % at the largest error.
 LARGE_ROLLING_PART = 0.2
 # Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the
 # usual limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).

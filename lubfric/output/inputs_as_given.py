@@ -54,7 +54,8 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
 
 
 def _used_in_words(scene: Scene, key: str, value: Any) -> str:
-    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; of a history its range over the run."""
+    """Return the ``value`` of a ``key`` as a user wrote it, its numbers with their unit; of a history its range over
+    the run."""
     if key == SLIDING_SPEED_KEY and scene.transient is not None and scene.transient.sliding is not None:
         return range_in_words(*scene.transient.sliding.range(scene.transient.duration), "m/s")
     if isinstance(value, dict):

@@ -81,7 +81,8 @@ def plot_curves(
     measured: studies.Measured | None = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Draw friction over the speed of several ``curves``, by their names, with what was ``measured``, without its parts."""
+    """Draw friction over the speed of several ``curves``, by their names, with what was ``measured``, without its
+    parts."""
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
     for name, columns in curves.items():

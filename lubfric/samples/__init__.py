@@ -1,10 +1,11 @@
 """The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without
 cells.
 
-`contract` says what a `Sample` is: strips by number, pieces on native cells, and the rough contact on them. `choose` says
-which one a scene gets: `strips` (generated, or windows of a measured map), or `patch` (one map, and contacts that are
-not solved on cells). `maps` makes, reads and prepares the height maps, `windows` lays out windows of a map and joins
-them, `cells` finds the length of the cells, and `contacts` turns the keys of a scene into a contact of `lubfric.contact`.
+`contract` says what a `Sample` is: strips by number, pieces on native cells, and the rough contact on them. `choose`
+says which one a scene gets: `strips` (generated, or windows of a measured map), or `patch` (one map, and contacts that
+are not solved on cells). `maps` makes, reads and prepares the height maps, `windows` lays out windows of a map and
+joins them, `cells` finds the length of the cells, and `contacts` turns the keys of a scene into a contact of
+`lubfric.contact`.
 """
 
 from .cells import Cells, length_of_rough_contact, longest_cell_in_motion

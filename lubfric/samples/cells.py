@@ -1,4 +1,5 @@
-"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's."""
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the
+scene's."""
 
 from __future__ import annotations
 
@@ -35,9 +36,10 @@ CELLS_PER_LENGTH = 4.0
 # correlation length decides (`python -m verification.campaigns.constants`).
 CELLS_PER_HALF_WIDTH = 2.0
 
-# Cells in half of the length of the rough contact (`length_of_rough_contact`), at least, where roughness moves: with fewer the stated error by the cells of the
-# deterministic model, in proportion to the third power of their length (docs/tolerances.md), is above 6 %. A needle roller with
-# ridges along the motion had 72 % on 4 cells, 9 % on 8. A choice between error and work, which is in proportion to its square.
+# Cells in half of the length of the rough contact (`length_of_rough_contact`), at least, where roughness moves: with
+# fewer the stated error by the cells of the deterministic model, in proportion to the third power of their length
+# (docs/tolerances.md), is above 6 %. A needle roller with ridges along the motion had 72 % on 4 cells, 9 % on 8. A
+# choice between error and work, which is in proportion to its square.
 CELLS_PER_HALF_WIDTH_IN_MOTION = 6.0
 
 # Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned. A choice:
@@ -95,8 +97,8 @@ class Cells:
         return steps
 
     def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
-        """Return the longest coarsening, from that of these cells down to native ones, that leaves `ACROSS` cells in the
-        Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
+        """Return the longest coarsening, from that of these cells down to native ones, that leaves `ACROSS` cells in
+        the Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
         longest = self.longest_to_look_at(half_width)
         for coarsening in self.coarsenings():
             if max(n * step for n, step in zip(coarsening, self.native_spacing)) <= longest:
@@ -135,8 +137,8 @@ class Cells:
 
 
 def half_width_to_resolve(scene: Scene, sq: float) -> float:
-    """Return the half-width [m] in which `CELLS_PER_HALF_WIDTH` cells are enough: that of the Hertz strip, or a part of that of the
-    rough contact of ``sq`` [m] where roughness moves."""
+    """Return the half-width [m] in which `CELLS_PER_HALF_WIDTH` cells are enough: that of the Hertz strip, or a part of
+    that of the rough contact of ``sq`` [m] where roughness moves."""
     half_width = scene.bodies.half_width
     if has_moving_roughness(scene):
         return min(half_width, CELLS_PER_HALF_WIDTH * longest_cell_in_motion(scene, sq))
@@ -144,8 +146,8 @@ def half_width_to_resolve(scene: Scene, sq: float) -> float:
 
 
 def longest_cell_in_motion(scene: Scene, sq: float) -> float:
-    """Return the length [m] along x of the longest cells that resolve the rough contact of ``sq`` [m] where roughness moves
-    (`CELLS_PER_HALF_WIDTH_IN_MOTION`)."""
+    """Return the length [m] along x of the longest cells that resolve the rough contact of ``sq`` [m] where roughness
+    moves (`CELLS_PER_HALF_WIDTH_IN_MOTION`)."""
     return 0.5 * _length_to(scene.bodies, sq) / CELLS_PER_HALF_WIDTH_IN_MOTION
 
 
@@ -191,7 +193,8 @@ def correlation_lengths(rough: Roughness) -> tuple[float, float]:
 
 def no_cells(bodies: Sequence[Roughness], reach: float = 0.0, name: str = "surface") -> InputError:
     """Return the error of a generated surface ``name`` without cells, with an example: cells of a tenth of the shortest
-    correlation length of the ``bodies``, as many as `EXAMPLE_LENGTHS_ALONG_X` of the longest one and ``reach`` [m] need."""
+    correlation length of the ``bodies``, as many as `EXAMPLE_LENGTHS_ALONG_X` of the longest one and ``reach`` [m]
+    need."""
     known = [rough for rough in bodies if rough.correlation_length is not None]
     lengths = [length for rough in known for length in correlation_lengths(rough)] or [EXAMPLE_LENGTH]
     spacing = float(f"{min(lengths) / EXAMPLE_CELLS:.1g}")
@@ -212,8 +215,8 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def reach_of(scene: Scene, sq: float) -> float:
-    """Return the length [m] along x that contains the contact at all times: it ends where an undeformed cylinder, resting on
-    the ends of the Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
+    """Return the length [m] along x that contains the contact at all times: it ends where an undeformed cylinder,
+    resting on the ends of the Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
     rise = HIGHEST_SUMMITS * sq
     return _length_to(longest_contact(scene, rise).bodies, rise)
 
@@ -222,15 +225,15 @@ def length_of_rough_contact(scene: Scene, sq: float) -> float:
     """Return the length [m] along x below which the ends of a patch may cut the contact off, at some time of a run: an
     undeformed cylinder, resting on the ends of the Hertz strip, has risen by one Sq there.
 
-    Of generated patches at loads of 0.5 to 40 times the roughness, those that ended at 0.25 and 0.5 Sq had more than 1 % of
-    the contact load on their edge columns, those at 1 Sq and above less.
+    Of generated patches at loads of 0.5 to 40 times the roughness, those that ended at 0.25 and 0.5 Sq had more than 1
+    % of the contact load on their edge columns, those at 1 Sq and above less.
     """
     return _length_to(longest_contact(scene, sq).bodies, sq)
 
 
 def _length_to(bodies: Bodies, rise: float) -> float:
-    """Return the length [m] along x between the places where the undeformed cylinder, resting on the ends of the Hertz strip of
-    ``bodies``, has risen by ``rise`` [m]."""
+    """Return the length [m] along x between the places where the undeformed cylinder, resting on the ends of the Hertz
+    strip of ``bodies``, has risen by ``rise`` [m]."""
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * rise)
 
 

@@ -16,7 +16,8 @@ def requests_patch(scene: Scene) -> bool:
 
 
 def takes_strips(scene: Scene) -> bool:
-    """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no patch."""
+    """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no
+    patch."""
     is_rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
     return not requests_patch(scene) and _is_resolved(scene) and is_rough
 
@@ -30,8 +31,8 @@ def sample_of(
 ) -> Sample:
     """Return the sample of ``scene``, on native cells if ``numerics.grid`` is "given".
 
-    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``contact``: given to it; None: lubfric's own;
-    ``read``: the maps of the scene, if `whole_maps` read them before.
+    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``contact``: given to it; None: lubfric's
+    own; ``read``: the maps of the scene, if `whole_maps` read them before.
     """
     sample = _on_chosen_cells(scene, maps, contact, read)
     return sample.native() if scene.numerics.grid == "given" else sample

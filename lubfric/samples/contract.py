@@ -81,7 +81,8 @@ class Sample(ABC):
         """
 
     def length_of_piece(self, length: float) -> float:
-        """Return the length [m] along y of a piece of this ``length`` [correlation lengths], no longer than the surface."""
+        """Return the length [m] along y of a piece of this ``length`` [correlation lengths], no longer than the
+        surface."""
         return length * self.correlation_lengths[1]
 
     def piece_is_strip(self, length: float) -> bool:
@@ -152,8 +153,8 @@ class Sample(ABC):
         return [self.map_in_words(surface), statistics]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
-        """Return by how much, relative, the Sq of ``surface``, the `stated_map`, is above that of the `whole_map`, and the
-        difference that a sample of this size explains, at 95 %. Zeros: both are the same map."""
+        """Return by how much, relative, the Sq of ``surface``, the `stated_map`, is above that of the `whole_map`, and
+        the difference that a sample of this size explains, at 95 %. Zeros: both are the same map."""
         return 0.0, 0.0
 
     def map_in_words(self, surface: Surface) -> str:
@@ -169,8 +170,8 @@ class Sample(ABC):
 
     @property
     def refinement(self) -> tuple[int, int]:
-        """How many times shorter the cells of a strip can be made along each axis while it remains the same surface: (1, 1)
-        where strips on other cells are others."""
+        """How many times shorter the cells of a strip can be made along each axis while it remains the same surface:
+        (1, 1) where strips on other cells are others."""
         return self.cells.coarsening if self.refines_in_place else (1, 1)
 
     def line_length(self, count: int) -> float:

@@ -1,7 +1,8 @@
 """Samples of strips, each some 90 correlation lengths long across the motion: of an endless generated surface, or
 windows of a measured map.
 
-`Sample.joined` joins the first strips to one line, which load sharing solves as one contact with one film and one approach.
+`Sample.joined` joins the first strips to one line, which load sharing solves as one contact with one film and one
+approach.
 """
 
 from __future__ import annotations
@@ -48,8 +49,9 @@ WIDE_HALF_WIDTH = 5.0
 # length.
 MOVING_STRIP_LENGTHS = 30.0
 
-# Correlation lengths of the `Sample.first_strips`: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
-# many change f by up to 1.7 %, within the sampling tolerance of 2 % (`python -m verification.campaigns.constants`).
+# Correlation lengths of the `Sample.first_strips`: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and
+# twice as many change f by up to 1.7 %, within the sampling tolerance of 2 % (`python -m
+# verification.campaigns.constants`).
 FIRST_LENGTHS = 180.0
 
 # Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice: more
@@ -297,8 +299,8 @@ class MeasuredStrips(Sample):
 
 
 def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
-    """Return strips of the scene's surface, generated or measured. ``read``: the measured maps, if `whole_maps` read them
-    before."""
+    """Return strips of the scene's surface, generated or measured. ``read``: the measured maps, if `whole_maps` read
+    them before."""
     return measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
 
 
@@ -383,7 +385,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
 
 
 def _blended_rows(surface: Surface, lengths: tuple[float, float]) -> int:
-    """Return on how many rows a window of the map ``surface``, of correlation ``lengths`` [m], passes into the next one."""
+    """Return on how many rows a window of the map ``surface``, of correlation ``lengths`` [m], passes into the next
+    one."""
     return min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // LEAST_OVER_BLEND)
 
 
@@ -407,9 +410,9 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
 def _window_starts(
     scene: Scene, surface: Surface, lengths: tuple[float, float], cells: Cells, columns_of_map: int
 ) -> list[int]:
-    """Return the first columns of windows that the map ``surface`` holds independently, on these ``cells``; where they are
-    few, of windows that reach over the ends of its first ``columns_of_map`` as well: what follows is their mirror image, under
-    which the same asperities carry the load once more."""
+    """Return the first columns of windows that the map ``surface`` holds independently, on these ``cells``; where they
+    are few, of windows that reach over the ends of its first ``columns_of_map`` as well: what follows is their mirror
+    image, under which the same asperities carry the load once more."""
     half_width = longest_contact(scene).bodies.half_width
     dx = surface.spacing[0]
     columns = cells.columns * cells.coarsening[0]

@@ -53,8 +53,8 @@ def curve_axes(
 ) -> Axes:
     """Draw friction over speed, with its parts and its intervals, on ``ax`` or new axes, which are returned.
 
-    A further curve on the same axes takes the next colour, and its parts have that colour too. All curves are named, and
-    the key above the axes says once what dashes and bands mean.
+    A further curve on the same axes takes the next colour, and its parts have that colour too. All curves are named,
+    and the key above the axes says once what dashes and bands mean.
 
     Parameters
     ----------
@@ -133,8 +133,8 @@ def draw_curve(
 
 
 def _beside_others(drawn: DrawnCurve, others: list[Any]) -> DrawnCurve:
-    """Return a curve that is not alone on its axes: with the name of its scene, unlike those of the ``others``, parts in
-    its colour, and without the thin lines of a lone one."""
+    """Return a curve that is not alone on its axes: with the name of its scene, unlike those of the ``others``, parts
+    in its colour, and without the thin lines of a lone one."""
     if not drawn.is_named:
         drawn.lines.f.set_label(figures.plain_words(_unlike(drawn.scene, others)))
     for part in drawn.lines.parts:

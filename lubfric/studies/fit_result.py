@@ -247,7 +247,8 @@ class FitResult(Renamed, Shown):
     @property
     def effects(self) -> dict[str, float]:
         """Largest relative change of f at the measured points by each parameter: over its bounds, to first order; of
-        those that f does not change with there, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
+        those that f does not change with there, between the fit and the bounds within the interval, computed there
+        (NaN: not solved)."""
         relative = np.abs(self.slopes / self.predicted[:, None]).max(axis=0)
         effects = dict(zip(self.parameters, relative.tolist()))
         return effects | {key: self.profiles[key].change for key in self._flat}
@@ -361,7 +362,8 @@ class FitResult(Renamed, Shown):
         return f"{limit} {known}, with no {other} end within its bounds"
 
     def _ranges_note(self) -> str:
-        """Return that the intervals do not include the ranges of inputs that are not fitted, as text; "" without one."""
+        """Return that the intervals do not include the ranges of inputs that are not fitted, as text; "" without
+        one."""
         keys = [key for key, *_ in self.scene.ranges]
         return f"not in the intervals: the ranges of {', '.join(keys)}" if keys else ""
 

@@ -22,13 +22,13 @@ from .result import TransientResult, rolls
 from .roughness_in_motion import way_to_motion_in_time
 from .scene_in_time import scene_at
 
-# Outputs of a run at which its effects are judged, about. A choice: each takes some milliseconds, and the extremes of the
-# run are always among them.
+# Outputs of a run at which its effects are judged, about. A choice: each takes some milliseconds, and the extremes of
+# the run are always among them.
 JUDGED_OUTPUTS = 200
 
 
-# Relative difference of two values that count as equal. A choice: above that of the halves of a symmetrical cycle, whose
-# moments are rounded.
+# Relative difference of two values that count as equal. A choice: above that of the halves of a symmetrical cycle,
+# whose moments are rounded.
 ALIKE_PEAKS = 1e-3
 
 
@@ -75,8 +75,8 @@ class EffectOverTime:
 
 
 def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectOverTime, ...]:
-    """Return the effects that are not modelled in a run, each at the output at which it changes f the most; none where no
-    output entrains oil."""
+    """Return the effects that are not modelled in a run, each at the output at which it changes f the most; none where
+    no output entrains oil."""
     f = np.abs(result.coefficient)
     moving = np.flatnonzero(rolls(result.columns) & np.isfinite(f))
     if not moving.size:
@@ -111,8 +111,9 @@ def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectO
 
 
 def expected_effects_of_run(scene: Scene, sq: float, times: Sequence[float]) -> tuple[EffectOverTime, ...]:
-    """Return the effects that are not modelled in a run of ``scene``, whose surface has the standard deviation ``sq`` [m],
-    before it is solved: each at that of the ``times`` [s] at which the range of its relative change of f is widest."""
+    """Return the effects that are not modelled in a run of ``scene``, whose surface has the standard deviation ``sq``
+    [m], before it is solved: each at that of the ``times`` [s] at which the range of its relative change of f is
+    widest."""
     moments = []
     way = way_to_motion_in_time(scene)
     for time in times:
@@ -126,7 +127,8 @@ def expected_effects_of_run(scene: Scene, sq: float, times: Sequence[float]) -> 
 
 
 def first_largest(values: Sequence[float]) -> int:
-    """Return the index of the largest of ``values``, 0 or more; of several peaks that are as large, `ALIKE_PEAKS`, that of the first."""
+    """Return the index of the largest of ``values``, 0 or more; of several peaks that are as large, `ALIKE_PEAKS`, that
+    of the first."""
     is_at_peak = np.asarray(values) >= (1.0 - ALIKE_PEAKS) * max(values)
     first = int(np.argmax(is_at_peak))
     end = first + int(np.argmin(np.append(is_at_peak[first:], False)))
@@ -134,9 +136,9 @@ def first_largest(values: Sequence[float]) -> int:
 
 
 def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTime, ...]:
-    """Return each effect of the ``moments`` once: where the change of f by it, not relative to f, is largest. Moments at
-    which f is so near 0 that a relative change says nothing count only where there are no others. An effect whose change
-    is not estimated at any moment is that of the highest pressure. The largest change is first."""
+    """Return each effect of the ``moments`` once: where the change of f by it, not relative to f, is largest. Moments
+    at which f is so near 0 that a relative change says nothing count only where there are no others. An effect whose
+    change is not estimated at any moment is that of the highest pressure. The largest change is first."""
     by_name: dict[str, list[tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]]] = {}
     for moment in moments:
         for effect in moment.effects:

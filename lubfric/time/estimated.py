@@ -23,8 +23,8 @@ STEP_TOLERANCE = 3e-5
 # stop_and_start, 70 in a piston ring, 80 in a cam.
 STEPS_OF_CHANGE = 60.0
 
-# Part of them [-] that a film takes less which fills the whole gap: 63 to 97 steps for 139 to 155 in five random runs of
-# `python -m verification.campaigns.estimates` at lambda ratios above 2.3.
+# Part of them [-] that a film takes less which fills the whole gap: 63 to 97 steps for 139 to 155 in five random runs
+# of `python -m verification.campaigns.estimates` at lambda ratios above 2.3.
 SPARED_BY_FILM = 0.5
 
 # How many times as many steps the load takes: measured 13 in a light and slow contact, 60 in a
@@ -89,7 +89,8 @@ class RunEstimate:
         return float(np.interp(time, self.times, self.steps_until) / self.steps_until[-1])
 
     def seconds_between(self, times: Sequence[float]) -> list[float]:
-        """Return the processor seconds [s] of the steps until the first of ``times`` [s], and from each of them to the next."""
+        """Return the processor seconds [s] of the steps until the first of ``times`` [s], and from each of them to the
+        next."""
         parts = [0.0, *(self.part(time) for time in times)]
         return [(self.seconds - self.start_seconds) * each for each in np.diff(parts).tolist()]
 
@@ -105,8 +106,8 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     """Return the estimate of a run by load sharing; arguments as of `estimated_run`.
 
     The run first solves steady friction at some of its speeds, for its strips. The number of steps follows from how
-    much the histories change (`changes`), from the tolerance of a step with the order of the march, 2, and from the part
-    of the gap that the film fills.
+    much the histories change (`changes`), from the tolerance of a step with the order of the march, 2, and from the
+    part of the gap that the film fills.
     """
     transient = transient_of(scene)
     # whatever model steady friction would be by, and without the ends of input ranges, which its strips do not need
@@ -141,10 +142,11 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
 
 
 def changes(scene: Scene, sq: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times [s] of a run, how much its speed, load and radius have changed until then, and a weight that follows from the
-    part p of the gap that the film fills, at rough surfaces of ``sq`` [m], (n,) each. The changes are the sum of |d ln| of each,
-    with the weights 1, `CHANGE_OF_LOAD` and `CHANGE_OF_RADIUS`, times p^(1/3) (1 - `SPARED_BY_FILM` p^4): of what changes only so
-    much moves the gap, by which a step is judged, and a film that carries the load alone follows more smoothly.
+    """Return times [s] of a run, how much its speed, load and radius have changed until then, and a weight that follows
+    from the part p of the gap that the film fills, at rough surfaces of ``sq`` [m], (n,) each. The changes are the sum
+    of |d ln| of each, with the weights 1, `CHANGE_OF_LOAD` and `CHANGE_OF_RADIUS`, times p^(1/3) (1 - `SPARED_BY_FILM`
+    p^4): of what changes only so much moves the gap, by which a step is judged, and a film that carries the load alone
+    follows more smoothly.
 
     The speed of a reversal does not count as smaller than that which passes the contact and its inlet, of the length l,
     with the acceleration a: sqrt(2 l a).
@@ -182,8 +184,8 @@ def changes(scene: Scene, sq: float) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def _parts_of_film(scene: Scene, sq: float, speeds: np.ndarray) -> np.ndarray:
-    """Return the part of the gap, at rough surfaces of ``sq`` [m], that the film fills at each of ``speeds`` [m/s] (n,), none
-    negative; 1 where nothing is entrained."""
+    """Return the part of the gap, at rough surfaces of ``sq`` [m], that the film fills at each of ``speeds`` [m/s]
+    (n,), none negative; 1 where nothing is entrained."""
     fastest = float(speeds.max())
     if fastest < 1e-200:
         return np.ones(speeds.size)

@@ -3,10 +3,10 @@
     d(rho H)/dT + u d(rho H)/dX = d/dX( Φ rho H³/(6 nu eta) dP/dX )   where P > 0,
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
-The units are those of `lubfric.film.FilmProblem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
-``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.time.march`), and rate = 0 gives the
-steady state. Shear makes the flow Φ times the Newtonian one (`lubfric.film.thinning`). The unknowns z are the pressures
-at all nodes, and H00 in H = H00 + c X²/2 + K P.
+The units are those of `lubfric.film.FilmProblem` for a reference speed, and T = t U_ref/(unit of x). The time
+derivative is ``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.time.march`), and rate = 0
+gives the steady state. Shear makes the flow Φ times the Newtonian one (`lubfric.film.thinning`). The unknowns z are the
+pressures at all nodes, and H00 in H = H00 + c X²/2 + K P.
 
 Mass is balanced in control volumes around the nodes. The Couette flow takes film and density by third-order upwind
 interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P

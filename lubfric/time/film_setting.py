@@ -27,10 +27,10 @@ LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at le
 # one more step: some hundred volumes then miss less than the limit of the balance of a run
 # (`lubfric.time.result.MASS`). A choice: less takes more steps.
 MISSING_FLOW = 1e-6
-# Successive steps of Newton's method in which an end of the film fills one node each [-], from which on it fills more in each: two,
-# four, eight. Where the entrainment reverses, the film grows by 20 to 50 nodes in a step in time; a cam ended at its reversal,
-# because Newton's method filled one of them in a step. Nodes that are filled in excess get a negative pressure, and the next step
-# empties them. A choice: fewer fill nodes in excess more often.
+# Successive steps of Newton's method in which an end of the film fills one node each [-], from which on it fills more
+# in each: two, four, eight. Where the entrainment reverses, the film grows by 20 to 50 nodes in a step in time; a cam
+# ended at its reversal, because Newton's method filled one of them in a step. Nodes that are filled in excess get a
+# negative pressure, and the next step empties them. A choice: fewer fill nodes in excess more often.
 STEPS_OF_CREEPING = 4
 # Such steps in addition to all others, at most [-]. A choice: more take longer before a step in time is shortened.
 MOST_CREEPING_STEPS = 60
@@ -82,8 +82,8 @@ class Setting:
         return self.problem.line.e_prime * self.problem.film_unit * self.line_history.width
 
     def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
-        """Return the equations of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
-        speed, load, curvature and viscosity just before that time."""
+        """Return the equations of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady
+        state), at the speed, load, curvature and viscosity just before that time."""
         c = self.line_history
         reference = self.problem.line
         time_unit = self.problem.length_unit / reference.entrainment_speed
@@ -241,9 +241,9 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
     """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
 
     A node counts as cavitated when the pressure that its own equation requires, P - r/(dr/dP), is negative. This
-    primal-dual active set is a semismooth Newton method. A node upstream of the lubricant has no pressure at all: rounding
-    that left some there would count it as filled. If it fails, the load is changed in stages from the load of z
-    to the requested one. (With a spring that is not needed.)
+    primal-dual active set is a semismooth Newton method. A node upstream of the lubricant has no pressure at all:
+    rounding that left some there would count it as filled. If it fails, the load is changed in stages from the load of
+    z to the requested one. (With a spring that is not needed.)
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         solution = _iterated(equations, z, tolerance, max_steps)
@@ -267,7 +267,8 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
 
 def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:
     """Take Newton's steps from z until ``equations.residual`` <= tolerance; one more where what a short step misses is
-    little of what the film contains, but much of what flows. Ends of the film that creep go ahead (`STEPS_OF_CREEPING`)."""
+    little of what the film contains, but much of what flows. Ends of the film that creep go ahead
+    (`STEPS_OF_CREEPING`)."""
     is_last = False
     ends = CreepingEnds()
     left = max_steps  # without those in which an end creeps
@@ -303,7 +304,8 @@ def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_ste
 class CreepingEnds:
     """The two ends of a film, each of which may fill one node after the other in successive steps of Newton's method.
 
-    ``before``: the cavitated nodes of the last step (None: there was none); ``steps``: how many of them each end has crept.
+    ``before``: the cavitated nodes of the last step (None: there was none); ``steps``: how many of them each end has
+    crept.
     """
 
     before: BoolArray | None = None

@@ -1,5 +1,5 @@
-"""One step of the load-sharing model in time: a film that remembers its past and the rough contact share the load of the
-moment."""
+"""One step of the load-sharing model in time: a film that remembers its past and the rough contact share the load of
+the moment."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class ContactStep:
 
 @dataclass(frozen=True, kw_only=True)
 class ContactOfMoment:
-    """The rough contact with the area A of a moment: the ``patch``, and the operator ``to_patch`` from the film H at the nodes
-    to the film [m] at its points."""
+    """The rough contact with the area A of a moment: the ``patch``, and the operator ``to_patch`` from the film H at
+    the nodes to the film [m] at its points."""
 
     patch: RoughContact
     to_patch: np.ndarray
@@ -95,8 +95,8 @@ class LoadSharingSolver:
         return self.prepared.scene
 
     def contact_at(self, time: float) -> ContactOfMoment:
-        """Return the rough contact of the strip with the area A of ``time`` [s]: the Hertz strip of the load and the radius just
-        before it, or the complete patch, as in a steady contact."""
+        """Return the rough contact of the strip with the area A of ``time`` [s]: the Hertz strip of the load and the
+        radius just before it, or the complete patch, as in a steady contact."""
         bodies = self.scene.bodies
         history = self.setting.line_history
         load = history.load.before(time) / history.width
@@ -123,7 +123,8 @@ class LoadSharingSolver:
         """Return the solution at ``time`` [s]; its payload is the `ContactStep`.
 
         A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
-        spring, and its gap gives the next spring (a secant in ln load), until the `volume_residual` is within the tolerance.
+        spring, and its gap gives the next spring (a secant in ln load), until the `volume_residual` is within the
+        tolerance.
         """
         contact = self.contact_at(time)
         mean_row = contact.mean_row

@@ -65,10 +65,10 @@ class Step:
 class Progress:
     """How far a run has come. It can continue from any progress.
 
-    ``last_steps``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``next_step``:
-    the length of the next [s]; ``payload``: what the solver returned in addition to its unknowns. ``steps`` taken and ``rejected``;
-    ``worst``: largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and
-    whether it ended at an output time.
+    ``last_steps``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept;
+    ``next_step``: the length of the next [s]; ``payload``: what the solver returned in addition to its unknowns.
+    ``steps`` taken and ``rejected``; ``worst``: largest local error so far, over the tolerance. Of the last step its
+    ``solution``, its ``error``, and whether it ended at an output time.
     """
 
     last_steps: tuple[Step, ...]
@@ -165,12 +165,14 @@ class Solver(Protocol):
         """Return the step that ends at ``time`` [s], from the unknowns ``z`` and the ``payload`` of the last step."""
 
     def error_of(self, step: Step, difference: np.ndarray, /) -> float:
-        """Return the relative error of a step from the ``difference`` of its films or masses by the order of the method."""
+        """Return the relative error of a step from the ``difference`` of its films or masses by the order of the
+        method."""
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     """Yield the progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the
-    last time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
+    last time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing
+    else."""
     for stop in plan.stops:
         while now.time < stop:
             advanced = advance(now, stop, solver, plan.tolerance, LEAST_TIME_STEP_PART * plan.end)

@@ -29,8 +29,8 @@ class Output:
 
 
 class TimeModel(Solver, Protocol):
-    """A model of a run in time: a `Solver` of its steps that also records them. It is a protocol and no base class, because
-    what is a field of one model is a property of another.
+    """A model of a run in time: a `Solver` of its steps that also records them. It is a protocol and no base class,
+    because what is a field of one model is a property of another.
 
     ``prepared`` has the strip of rough surface of the run, ``scene`` what changes in time, ``x`` the nodes of the film
     [m], ``cells`` its grid as text. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest

@@ -220,7 +220,8 @@ def _errors_of_f(
     friction: FrictionOfMoment,
     of_film: dict[str, float],
 ) -> dict[str, float]:
-    """Return the columns with the errors of f by the finite surface and by the model; ``of_film``: those of the film."""
+    """Return the columns with the errors of f by the finite surface and by the model; ``of_film``: those of the
+    film."""
     contact_step = solution.payload
     load = scene.bodies.load
     film_load = of_film["film_load"]
@@ -293,9 +294,10 @@ def _violated(
 
 
 def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
-    """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET_PRESSURE`` of
-    the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
-    fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
+    """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above
+    ``WET_PRESSURE`` of the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated
+    zone that nothing fills. mass_residual: what is missing in the balance, over the larger of the flow and
+    ``NO_FLOW``."""
     t = solution.terms
     p = model.setting.problem
     unit = p.film_unit * p.line.entrainment_speed
@@ -315,8 +317,8 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
 
 def contact_softness(contact: ContactOfMoment, solution: Step, width: float) -> float:
     """Return -dG/d ln F_C [m] of the contact in ``solution``, by `lubfric.models.load_sharing.slopes_of`; 0 without
-    contact, NaN where the contact at another load was not solved. (`ContactStep.softness` is that with which a step began:
-    its iterations need no more.)"""
+    contact, NaN where the contact at another load was not solved. (`ContactStep.softness` is that with which a step
+    began: its iterations need no more.)"""
     contact_step = solution.payload
     if contact_step.load <= 0:
         return 0.0
@@ -336,7 +338,8 @@ def contact_softness(contact: ContactOfMoment, solution: Step, width: float) -> 
 def film_shear(
     model: LoadSharingSolver, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
 ) -> tuple[ShearForce, Heat]:
-    """Return the forces [N] on the upper surface, positive along -x, and the heat of these and of the ``boundary`` friction [N].
+    """Return the forces [N] on the upper surface, positive along -x, and the heat of these and of the ``boundary``
+    friction [N].
 
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.

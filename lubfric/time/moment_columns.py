@@ -16,16 +16,16 @@ def sense_of(speed: float) -> float:
 
 
 def sense_of_friction(scene: Scene, sliding: float) -> float:
-    """Return the sense in which f is positive: that of ``sliding`` [m/s], or of the entrainment of ``scene`` where nothing
-    slides."""
+    """Return the sense in which f is positive: that of ``sliding`` [m/s], or of the entrainment of ``scene`` where
+    nothing slides."""
     return sense_of(sliding if sliding != 0 else scene.motion.entrainment_speed)
 
 
 def motion_columns(
     now: Progress, scene: Scene, *, sliding: float, force: float, rolling_resistance: float
 ) -> dict[str, float]:
-    """Return the columns of the moment that a run has reached, at which ``scene`` holds: its motion, its power loss, and the
-    step that ended there.
+    """Return the columns of the moment that a run has reached, at which ``scene`` holds: its motion, its power loss,
+    and the step that ended there.
 
     ``sliding``: the sliding speed [m/s]; ``force``: the friction force [N] on the upper surface, positive along -x;
     ``rolling_resistance`` [N]: against the entrainment.

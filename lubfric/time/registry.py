@@ -78,7 +78,8 @@ RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINI
 
 
 def run_model_of(scene: Scene) -> RunModel:
-    """Return how the model of ``scene`` runs in time; for "auto" the cheapest that does. `InputError` if it has no run."""
+    """Return how the model of ``scene`` runs in time; for "auto" the cheapest that does. `InputError` if it has no
+    run."""
     name = scene.numerics.model
     for model in models_that_may_answer(name):
         if model.name in RUNS:
@@ -97,7 +98,8 @@ def models_that_may_be_solved(scene: Scene) -> tuple[Model, ...]:
 
 
 def may_move_roughness(scene: Scene) -> bool:
-    """Return whether a model that may answer for ``scene`` includes that its roughness moves (`Model.includes_motion`)."""
+    """Return whether a model that may answer for ``scene`` includes that its roughness moves
+    (`Model.includes_motion`)."""
     return any(model.includes_motion for model in models_that_may_be_solved(scene))
 
 

@@ -73,8 +73,8 @@ class TimeAverage:
     - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then
       other asperities carry the load every `TransientResult.renewal`.
 
-    ``coefficient_of_losses`` is f weighted by load and sliding speed, over all times: the work of sliding is it times the
-    integral of the load over the sliding distance.
+    ``coefficient_of_losses`` is f weighted by load and sliding speed, over all times: the work of sliding is it times
+    the integral of the load over the sliding distance.
 
     ``interval`` is the 95 % interval of ``coefficient``, ``power_loss`` [W] the mean power loss of the whole run, with
     ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends. ``budget`` has
@@ -357,8 +357,8 @@ def errors_in_time(
 
 def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray) -> np.ndarray:
     """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known
-    is not in it; NaN where sampling is not known, and at rest. Friction resists the sliding, so only the rolling part makes the lower
-    end negative."""
+    is not in it; NaN where sampling is not known, and at rest. Friction resists the sliding, so only the rolling part
+    makes the lower end negative."""
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))

@@ -41,8 +41,9 @@ def transient(
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed), by variable-step BDF2 with error control. At every step film and rough
-    contact share the load of that moment, and satisfy the balance of volume, Eq. (8), over A, the strip of ``bodies.load``
-    (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With a deterministic model there is one rough gap.
+    contact share the load of that moment, and satisfy the balance of volume, Eq. (8), over A, the strip of
+    ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With a deterministic model there is one rough
+    gap.
 
     Parameters
     ----------
@@ -91,8 +92,8 @@ def transient(
 
 
 def raise_if_failed(result: TransientResult, *, accept: bool) -> None:
-    """Raise `ConvergenceError` where the run did not end, and `ValidityError` where f means nothing at some time, unless
-    ``accept``. Both carry the ``result``."""
+    """Raise `ConvergenceError` where the run did not end, and `ValidityError` where f means nothing at some time,
+    unless ``accept``. Both carry the ``result``."""
     result.report.raise_if_failed(result)
     severe = sorted((e for violations in result.violations for e in violations if e.severe), key=lambda e: e.value)
     worst = {violation.what: violation for violation in severe}  # of each kind
@@ -145,8 +146,9 @@ def _marched(
     *,
     most_work: float,
 ) -> tuple[Progress, list[Output], bool]:
-    """Return the last progress of a run, its outputs, and whether ``most_work`` [s] of counted work ended it. The run continues from where the ``store`` has it under
-    ``key``, if it does: from its state, with all outputs that the state counts, which were stored before it."""
+    """Return the last progress of a run, its outputs, and whether ``most_work`` [s] of counted work ended it. The run
+    continues from where the ``store`` has it under ``key``, if it does: from its state, with all outputs that the state
+    counts, which were stored before it."""
     count, progress = store.get(key, STATE) or (0, initial_progress(start, plan))
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
     if len(outputs) < count:  # one was damaged, which the store has reported

@@ -64,8 +64,8 @@ def surface_speed(scene: Scene, body: str, time: float) -> float:
 
 
 def value_at(scene: Scene, name: str, constant: float, time: float, side: str = "before") -> float:
-    """Return the value of what a run in time changes under ``name``, just "before" ``time`` [s] or "at" it; ``constant``
-    where nothing changes it."""
+    """Return the value of what a run in time changes under ``name``, just "before" ``time`` [s] or "at" it;
+    ``constant`` where nothing changes it."""
     history = getattr(transient_of(scene), name)
     return constant if history is None else getattr(history, side)(time)
 

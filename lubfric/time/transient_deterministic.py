@@ -64,8 +64,8 @@ from .start import check_start
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
 MOST_NEWTON_STEPS_IN_TIME = 25  # Newton steps in a step
-# Of the fastest entrainment (without any, of b over the duration): slower one counts as that, and a result as at rest. A
-# choice: more than the rounding errors of a frequency leave at a reversal, less than any flow that matters.
+# Of the fastest entrainment (without any, of b over the duration): slower one counts as that, and a result as at rest.
+# A choice: more than the rounding errors of a frequency leave at a reversal, less than any flow that matters.
 REST = 1e-6
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump

@@ -14,14 +14,14 @@ from .model import Output
 from .moment import load_sharing_moment
 from .scene_in_time import surface_speed, transient_of
 
-# Tolerances of the volume balance and of the contact over the largest local error of a step, at most [-]: what they leave
-# differs from step to step, and looks like an error in time that no shorter step reduces. docs/examples/cam.toml takes 950
-# steps, and 2500 with 3 and 30; with a third of these shares as many, each with a quarter more work.
+# Tolerances of the volume balance and of the contact over the largest local error of a step, at most [-]: what they
+# leave differs from step to step, and looks like an error in time that no shorter step reduces. docs/examples/cam.toml
+# takes 950 steps, and 2500 with 3 and 30; with a third of these shares as many, each with a quarter more work.
 BALANCE_SHARE = 1.0
 CONTACT_SHARE = 3.0
 
-# Loosest tolerance of the volume balance [-], whatever the local error of a step may be. A choice: f of every output follows
-# from it.
+# Loosest tolerance of the volume balance [-], whatever the local error of a step may be. A choice: f of every output
+# follows from it.
 LOOSEST_BALANCE = 1e-4
 STANDS_STILL = "moving roughness is treated as stationary"
 
@@ -79,8 +79,8 @@ class TransientLoadSharing(LoadSharingSolver):
         )
 
     def resumable(self, progress: Progress) -> Progress:
-        """Return ``progress`` with the pressure and displacement of the contact, from which the next one is solved, without what the
-        next step computes again."""
+        """Return ``progress`` with the pressure and displacement of the contact, from which the next one is solved,
+        without what the next step computes again."""
         contact_step = progress.payload
         state = contact_step.state
         fields = state.fields and replace(state.fields, gap=np.empty(0))

@@ -98,7 +98,8 @@ def test_a_deep_scar_of_a_cylinder_at_rest_is_flat():
 
 
 def test_a_smooth_dry_cylinder_wears_its_counterpart_evenly():
-    """Every point passes under the mean Hertz pressure p for the same sliding: K p s/H, whatever the pressure's form."""
+    """Every point passes under the mean Hertz pressure p for the same sliding: K p s/H, whatever the pressure's
+    form."""
     cylinder = LoadedCylinder(radius=0.01, width=1e-3, load=100.0, e_prime=E_PRIME)
     spacing = (cylinder.half_width / 15, 1e-5)
     heights = np.zeros((97, 2))

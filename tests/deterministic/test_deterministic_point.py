@@ -179,8 +179,8 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
 
 @pytest.mark.parametrize("speed", [10.0, 3.0, 1.0, 0.3])
 def test_a_gigapascal_starts_from_half_of_the_film(speed):
-    """A roller on long cells takes at most nine factorisations; from the dry contact lifted by all of Moes' film it took 11
-    to 14."""
+    """A roller on long cells takes at most nine factorisations; from the dry contact lifted by all of Moes' film it
+    took 11 to 14."""
     oil = Lubricant(0.02, 18e-9, limiting_stress_coefficient=0.06, eyring_stress=5e6)
     surface = lubfric.generate_surface((64, 64), 4e-6, sq=150e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(1.6e5, speed, oil, 6e-3)
@@ -256,9 +256,9 @@ def test_too_many_cells_are_refused_before_any_work():
 
 
 def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
-    """E' 19 GPa at 60 MPa, where pressure hardly thickens the oil: Newton's method leads nowhere from the dry contact, and
-    the way down from a faster speed took 500 factorisations or failed. To the film that it reaches from half the speed,
-    by another way."""
+    """E' 19 GPa at 60 MPa, where pressure hardly thickens the oil: Newton's method leads nowhere from the dry contact,
+    and the way down from a faster speed took 500 factorisations or failed. To the film that it reaches from half the
+    speed, by another way."""
     oil = Lubricant(0.0475, 1.16e-8, eyring_stress=5e6)
     surface = lubfric.generate_surface((64, 48), 12e-6, sq=276e-9, correlation_length=48e-6, acf="gaussian", seed=2)
 
@@ -278,8 +278,8 @@ def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
 
 @pytest.mark.slow
 def test_a_starved_film_is_solved_from_a_cold_start():
-    """60 nm arrive on 80 nm of roughness. On cells of 2 um, lifted by half of Moes' film the dry contact led to the solution
-    in 50 steps or nowhere. To the film that a thicker one leads to, by another way."""
+    """60 nm arrive on 80 nm of roughness. On cells of 2 um, lifted by half of Moes' film the dry contact led to the
+    solution in 50 steps or nowhere. To the film that a thicker one leads to, by another way."""
     oil = Lubricant(0.006, 1.6e-8, eyring_stress=5e6, limiting_stress_coefficient=0.06)
     surface = lubfric.generate_surface((120, 48), 2e-6, sq=80e-9, correlation_length=8e-6, acf="gaussian", seed=3)
 
@@ -307,8 +307,9 @@ def test_another_lift_of_the_dry_contact_is_the_last_way():
 
 
 def test_an_attempt_between_soft_bodies_ends_at_a_system_that_is_not_solved():
-    """A seal of 21 MPa in water, on 800 nm of roughness whose summits are sharp: from the dry contact a system of Newton's method
-    takes all iterations of GMRES. The state is the one before its step, and the steps beyond it lead away."""
+    """A seal of 21 MPa in water, on 800 nm of roughness whose summits are sharp: from the dry contact a system of
+    Newton's method takes all iterations of GMRES. The state is the one before its step, and the steps beyond it lead
+    away."""
     water = Lubricant(1e-3, 0.0, viscosity_law="constant")
     surface = lubfric.generate_surface((64, 24), 24e-6, sq=800e-9, correlation_length=80e-6, acf="exponential", seed=3)
     line = LineContact(load_per_width=1e3, radius=RADIUS, e_prime=2.1e7, entrainment_speed=0.5, lubricant=water)

@@ -1,4 +1,5 @@
-"""The ends of input ranges that estimates expect a point to solve: against the counted work of points with and without a range."""
+"""The ends of input ranges that estimates expect a point to solve: against the counted work of points with and without
+a range."""
 
 import pytest
 
@@ -14,7 +15,8 @@ REST = lubfric.load_scene("paper").with_(
     numerics={"model": "quick", "accept": True, "sampling": "patch"},
 )
 MOVING = REST.with_(motion={"slide_roll_ratio": 0.1})
-# Ranges that no point solves: of a hardness that no asperity reaches, and in motion of a limit that changes the flow little.
+# Ranges that no point solves: of a hardness that no asperity reaches, and in motion of a limit that changes the flow
+# little.
 UNREACHED = {"bodies": {"hardness": [20e9, 19e9, 21e9]}}
 OF_LIMIT = {"lubricant": {"limiting_stress_coefficient": [0.06, 0.055, 0.065]}}
 OF_FLOW = {"lubricant": {"eyring_stress": [5e6, 2e6, 1e7]}}

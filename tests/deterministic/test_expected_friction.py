@@ -25,7 +25,8 @@ def rolling(sq=2e-7, slide_roll_ratio=0.5, **numerics):
 
 @pytest.mark.parametrize("slope", [0.01, 0.08, 0.11, 0.13])
 def test_ends_of_the_hardness_are_those_that_drawn_pressures_move(slope):
-    """Pressures are lengths of two independent normal numbers; a plane wave of this slope has them, whatever its length."""
+    """Pressures are lengths of two independent normal numbers; a plane wave of this slope has them, whatever its
+    length."""
     scene = rolling()
     x = np.arange(64) / 64
     heights = np.sin(2 * np.pi * x)[:, None] * np.ones((1, 8))

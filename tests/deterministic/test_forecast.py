@@ -1,4 +1,5 @@
-"""A strip of moving roughness whose first steps in time forecast too much work leaves its point to the quick model, by itself."""
+"""A strip of moving roughness whose first steps in time forecast too much work leaves its point to the quick model, by
+itself."""
 
 import re
 from types import SimpleNamespace

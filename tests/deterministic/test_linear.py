@@ -71,7 +71,8 @@ def five_points(nx, ny):
 
 @pytest.mark.parametrize("shape", [(40, 24), (25, 60), (7, 3)])
 def test_nested_dissection_fills_in_less_than_cells_row_by_row(shape):
-    """Both orders are permutations; on a grid of any use dissection leaves a fifth fewer entries, by SuperLU's count."""
+    """Both orders are permutations; on a grid of any use dissection leaves a fifth fewer entries, by SuperLU's
+    count."""
     matrix = five_points(*shape)
     counts = []
     for order in (nested_dissection(*shape), np.arange(matrix.shape[0])):
@@ -133,7 +134,8 @@ def test_coefficients_that_the_lu_omits_do_not_change_a_step_in_time():
 
 
 def test_the_lu_at_rest_has_fewer_entries_than_that_of_the_matrix_of_second_order():
-    """First-order flow needs cuts one cell wide. The complete coefficients, in the best order that SuperLU finds, have more."""
+    """First-order flow needs cuts one cell wide. The complete coefficients, in the best order that SuperLU finds, have
+    more."""
     system = System(evaluated(PROBLEM, SOLVED.state))
     complete = (system.local + PROBLEM.self_deflection * system.by_h @ diags(system.to_pressure.ravel())).tocsc()
     other = splu(complete, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
@@ -152,7 +154,8 @@ def test_a_heavy_film_at_rest_takes_fewer_iterations_than_with_second_order_flow
 
 
 def test_cells_at_the_hardness_take_as_few_iterations_as_elastic_ones():
-    """Lubricant carries a dent from cell to cell: a fifth of the cells have yielded, and cells next to each other share dents."""
+    """Lubricant carries a dent from cell to cell: a fifth of the cells have yielded, and cells next to each other share
+    dents."""
     line = replace(SCENE.line_contact(0.03), load_per_width=160e3, radius=6e-3, lubricant=OIL)
     elastic, plastic = (
         solve_point(lay_out(MAP, line, sliding=0.03, boundary_friction=0.12, hardness=hardness), tolerance=1e-5)

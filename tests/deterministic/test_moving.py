@@ -330,8 +330,8 @@ def test_a_step_that_is_not_solved_by_third_order_is_taken_by_a_lower_one(monkey
 
 @pytest.mark.slow
 def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
-    """Followed from the start with the other oil, the same roughness changes f as much in the same moments. With the same oil
-    these moments are those of the strip."""
+    """Followed from the start with the other oil, the same roughness changes f as much in the same moments. With the
+    same oil these moments are those of the strip."""
     body = [RoughBody(rough(3, sq=0.2e-6, shape=(28, 12)), 0.3 * 0.75)]
     scene = scene_of(slide_roll_ratio=0.5)
     thinner = scene.with_(lubricant={"eyring_stress": 1e7})

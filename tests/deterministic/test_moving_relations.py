@@ -1,5 +1,5 @@
-"""Relations between two runs of moving roughness, by the deterministic model on short cells and on long ones: what must not
-change f does not, and similar contacts have one f. Each holds for any implementation of the equations."""
+"""Relations between two runs of moving roughness, by the deterministic model on short cells and on long ones: what must
+not change f does not, and similar contacts have one f. Each holds for any implementation of the equations."""
 
 from dataclasses import replace
 
@@ -118,8 +118,8 @@ def test_f_is_that_of_the_strip_as_shorter_cells_change_it(results):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_similar_contacts_have_one_coefficient(model, results):
-    """All lengths twice as long, at the same stresses: but the gap of touching bodies, 1 nm, which iterates of Newton's method
-    reach. So both agree to the residual at which steps in time end."""
+    """All lengths twice as long, at the same stresses: but the gap of touching bodies, 1 nm, which iterates of Newton's
+    method reach. So both agree to the residual at which steps in time end."""
     scene = SCENE.with_(bodies={"radius": 1e-2, "width": 1e-2, "load": 240.0, "boundary_film": 40e-9})
     surface = replace(MAP, heights=2 * MAP.heights, spacing=(5e-6, 5e-6))
     result = solved(model, scene, surface, 2 * SPEED)
@@ -129,8 +129,8 @@ def test_similar_contacts_have_one_coefficient(model, results):
 
 @pytest.mark.parametrize("model", [pytest.param("deterministic", marks=pytest.mark.slow), "quick"])
 def test_the_same_roughness_on_the_other_body(model, results):
-    """Surface 2 in place of 1, with the speeds exchanged: the same film. Only the force of the pressure on surface 2 is that
-    of the other body."""
+    """Surface 2 in place of 1, with the speeds exchanged: the same film. Only the force of the pressure on surface 2 is
+    that of the other body."""
     keys = {"slide_roll_ratio": -SCENE.motion.slide_roll_ratio}
     rough = {"sq": 60e-9, "correlation_length": 1e-5}
     scene = SCENE.with_(motion=keys, surface={"sq": 0.0}, counterface=rough, numerics={"model": model})

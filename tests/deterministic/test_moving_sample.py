@@ -154,8 +154,8 @@ def test_a_march_ends_when_its_error_is_within_the_target():
 
 
 def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():
-    """In a step in which the film passes one cell: one body goes its own way, two equal ones that of the film, and one that
-    is smooth has no weight. What moves against the film starts upstream."""
+    """In a step in which the film passes one cell: one body goes its own way, two equal ones that of the film, and one
+    that is smooth has no weight. What moves against the film starts upstream."""
     rough = generate_surface((64, 64), 2e-6, sq=2e-7, correlation_length=LENGTH, acf="gaussian", seed=1)
     smooth = surface_of(np.zeros((64, 64)))
 
@@ -199,8 +199,9 @@ def test_the_effect_of_the_cells_of_moving_roughness_falls_by_second_order():
 
 
 def test_shorter_cells_act_as_a_thinner_boundary_film():
-    """Where f = c delta^n, four times the film gives 4^n f, and a film thinner by the factor q gives q^n f: the expected change is a
-    power law of the ratio, none where the film does not matter, and of the other sign where f falls with the film."""
+    """Where f = c delta^n, four times the film gives 4^n f, and a film thinner by the factor q gives q^n f: the
+    expected change is a power law of the ratio, none where the film does not matter, and of the other sign where f
+    falls with the film."""
     changes = [1 + cells_in_motion(4.0**n).change for n in (0.3, 0.6, -0.3, 0.0)]
     assert changes[0] < 1 and changes[1] == pytest.approx(changes[0] ** 2)
     assert changes[2] == pytest.approx(1 / changes[0]) and changes[3] == 1
@@ -310,8 +311,8 @@ def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():
 @pytest.mark.parametrize("moments, places", [(62, 62), (62, 70), (85, 62), (92, 62), (120, 128), (25, 130), (25, 150)])
 @pytest.mark.parametrize("has_control", [True, False])
 def test_a_short_moving_sample_says_of_which_blocks_it_has_too_few(moments, places, has_control):
-    """A block is 3 half-widths long, of 0.1 each moment, and 4 correlation lengths wide, of 5 cells each. Of so many as are
-    stated the error is known, of fewer it is not."""
+    """A block is 3 half-widths long, of 0.1 each moment, and 4 correlation lengths wide, of 5 cells each. Of so many as
+    are stated the error is known, of fewer it is not."""
     known = SummitControl(wave=WAVE, threshold=1.0, mean=0.0, scatter=0.0, count=48)
     control = known if has_control else None
     sample = sample_of(0, moments, places)
@@ -336,7 +337,8 @@ def test_a_short_moving_sample_says_of_which_blocks_it_has_too_few(moments, plac
 
 
 def test_where_nearly_all_of_the_load_rubs_the_cells_of_the_film_matter_little():
-    """At the limits: all of the error where film carries a thirtieth of the load or more, that of the rolling part where it carries none."""
+    """At the limits: all of the error where film carries a thirtieth of the load or more, that of the rolling part
+    where it carries none."""
     of = {
         "film_ratio": 1.0,
         "coarse_x": 0.25,

@@ -1,5 +1,5 @@
-"""The forces of a point: they add up to f, each within what its load allows, whatever corrected f after the strips were solved.
-Oracles: balances of forces and loads, Amontons' law on asperities, and the signs of stresses by sliding."""
+"""The forces of a point: they add up to f, each within what its load allows, whatever corrected f after the strips were
+solved. Oracles: balances of forces and loads, Amontons' law on asperities, and the signs of stresses by sliding."""
 
 import pytest
 

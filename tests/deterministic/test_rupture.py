@@ -15,7 +15,8 @@ SOLVED = solve_point(PROBLEM)
 
 
 def ruptured(suction):
-    """Return which of the neighbours in the middle of the film rupture that are under so much suction over the pressure there."""
+    """Return which of the neighbours in the middle of the film rupture that are under so much suction over the pressure
+    there."""
     pressure = SOLVED.state.pressure.copy()
     row = int(np.argmax(pressure.mean(axis=1)))
     places = [(row, 4 + k) for k in range(len(suction))]

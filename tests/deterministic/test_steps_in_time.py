@@ -105,8 +105,8 @@ def test_a_step_begins_with_the_load_and_the_mean_gap_of_the_moment_before(monke
 
 
 def test_a_step_takes_no_mass_balance_or_product_with_k_that_its_newton_steps_do_not_need(monkeypatch):
-    """Where no Newton step is halved. Its start needs the gap alone, which takes no mass balance. The products with K are those of
-    the start, of its gap, of each iteration of GMRES, and of each change and new state."""
+    """Where no Newton step is halved. Its start needs the gap alone, which takes no mass balance. The products with K
+    are those of the start, of its gap, of each iteration of GMRES, and of each change and new state."""
     surface = lubfric.generate_surface((48, 24), 2e-6, sq=50e-9, correlation_length=8e-6, acf="gaussian", seed=1)
     line = lubfric.load_scene("paper").line_contact(0.3)
     problem = lay_out(surface, line, sliding=0.03, boundary_friction=0.1)

@@ -105,8 +105,8 @@ def test_the_estimate_tells_what_half_of_the_cells_change():
 
 
 def test_problems_of_the_same_bodies_share_their_dry_contacts(monkeypatch):
-    """A second speed on the same cells solves no dry contact again, with the same film to the bit; another load, hardness or
-    elasticity is not taken for the same contact."""
+    """A second speed on the same cells solves no dry contact again, with the same film to the bit; another load,
+    hardness or elasticity is not taken for the same contact."""
     solve_contact = lubfric.models.deterministic.solve.solve_contact
     calls = []
 
@@ -141,8 +141,8 @@ def test_what_is_remembered_is_not_pickled():
 
 
 def test_what_is_remembered_counts_all_its_fields(monkeypatch):
-    """Three fields of a contact: where there is room for those of two contacts beside the last one, a fourth takes the place of
-    the first."""
+    """Three fields of a contact: where there is room for those of two contacts beside the last one, a fourth takes the
+    place of the first."""
     cells = 50
     monkeypatch.setattr(lubfric.models.shared.memo, "MOST_MEMO_CELLS", 6 * cells + 2)
     memo = Memo()

@@ -100,7 +100,8 @@ def test_a_patch_keeps_its_shorter_cells_where_still_shorter_ones_do_not_converg
 
 
 def test_an_axis_of_a_patch_with_many_cells_keeps_longer_ones():
-    """Its cells along y, which divide 4 x 61, are a fourth of those along x: f on native ones is within the stated error."""
+    """Its cells along y, which divide 4 x 61, are a fourth of those along x: f on native ones is within the stated
+    error."""
     patch = PATCH.with_(
         surface={"correlation_length": (12e-6, 14e-6)},
         contact={"shape": (96, 244), "spacing": (1e-6, 0.25e-6)},
@@ -121,7 +122,8 @@ def test_an_axis_of_a_patch_with_many_cells_keeps_longer_ones():
     ],
 )
 def test_cells_that_the_work_ended_have_one_advice_that_helps(scene, work, more):
-    """A larger numerics.max_work lowers the numerical error. On the cells of the map the same work gives no lower one, or no answer."""
+    """A larger numerics.max_work lowers the numerical error. On the cells of the map the same work gives no lower one,
+    or no answer."""
     ended = lubfric.friction(scene.with_(numerics={"max_work": work}), SPEED)
     (note,) = (each for each in ended.validity if each.what == "estimated numerical error of f")
     assert note.recommendation == "set a larger numerics.max_work for shorter cells"

@@ -1,4 +1,5 @@
-"""The rows of a gear flank that docs/studies.md states are those of two turning bodies that touch on the line of action."""
+"""The rows of a gear flank that docs/studies.md states are those of two turning bodies that touch on the line of
+action."""
 
 import re
 
@@ -9,8 +10,9 @@ from pages import ROOT
 
 @pytest.mark.parametrize("s", [-3e-3, 0.0, 4e-3])
 def test_radii_and_speeds_of_a_spur_gear_follow_from_its_turning_bodies(s):
-    """Centres on the y axis, the pitch point at the origin, the line of action at the angle α to the x axis. The speed of a
-    body at the contact is ω x r; along the line of action both are equal, across it they are those of rolling and sliding."""
+    """Centres on the y axis, the pitch point at the origin, the line of action at the angle α to the x axis. The speed
+    of a body at the contact is ω x r; along the line of action both are equal, across it they are those of rolling and
+    sliding."""
     alpha = np.radians(22.0)
     pitch_radii = {1: 0.03, 2: 0.05}
     turning = {1: 100.0, 2: 100.0 * 0.03 / 0.05}

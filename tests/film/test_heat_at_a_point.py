@@ -97,8 +97,9 @@ def test_the_temperatures_do_not_depend_on_which_surface_is_the_faster_one(model
 
 
 def test_the_model_form_error_by_heat_is_stated_by_its_parts(model):
-    """At small slip the thinner film by the heat of the inlet may count for more than the temperatures in the contact. The first
-    part is half of the change that the decision states, and both add up to the model-form error of a thick film."""
+    """At small slip the thinner film by the heat of the inlet may count for more than the temperatures in the contact.
+    The first part is half of the change that the decision states, and both add up to the model-form error of a thick
+    film."""
     hot = at(model, 5.0, 0.05, numerics={"model": "paper"})
     note = next(note for note in hot.uncertainty.notes if note.startswith("the model-form error by heat is "))
     total, within, inlet = (float(number) for number in re.findall(r"([\d.]+) %", note)[:3])

@@ -34,8 +34,8 @@ def test_a_result_cites_the_load_sharing_model_that_it_was_compared_with():
 
 
 def test_a_paragraph_to_quote_has_what_was_used():
-    """Of a curve by two models: every DOI and every purpose of its list, both models with their points, the version, and the parts
-    of its intervals; of a single point its own model alone. A run in time and a study have theirs too."""
+    """Of a curve by two models: every DOI and every purpose of its list, both models with their points, the version,
+    and the parts of its intervals; of a single point its own model alone. A run in time and a study have theirs too."""
     loose = {"sampling_tolerance": 0.3, "tolerance": 0.05}
     curve = lubfric.stribeck(lubfric.load_scene("paper").with_(numerics=loose), [0.01, 1.0])
     text = curve.cite("methods")

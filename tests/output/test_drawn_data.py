@@ -246,7 +246,8 @@ def rows_of(axes):
 
 
 def test_one_speed_is_drawn_with_its_parts_and_no_axis_of_speeds(figures):
-    """f and its parts from 0, the interval and that by each error alone, by Student's t; a part is no more than the whole."""
+    """f and its parts from 0, the interval and that by each error alone, by Student's t; a part is no more than the
+    whole."""
     one = {name: column[:1] for name, column in COLUMNS.items()}
     errors = {"model_error": 0.9, "numerical_error": 0.02, "sampling_error": 0.01, "sampling_freedom": 4.0}
     errors |= {"input_error": 0.1, "input_error_low": 0.0, "input_error_high": 0.1}
@@ -791,7 +792,8 @@ def test_few_values_of_a_study_are_named_and_many_are_read_off_a_bar():
 @pytest.mark.parametrize("shape", [(64, 20), (20, 64), (40, 40)])
 @pytest.mark.parametrize("place, along", [("right", "y"), ("top", "x")])
 def test_a_bar_of_colours_is_as_long_as_its_map(shape, place, along):
-    """A map that is to scale is smaller than its place, in which the bar was drawn; ends for clipped values lie beyond it."""
+    """A map that is to scale is smaller than its place, in which the bar was drawn; ends for clipped values lie beyond
+    it."""
     figure = new_figure(figsize=(7, 4), layout="constrained")
     axes = figure.subplots(1, 2)[0]
     values = np.arange(float(np.prod(shape))).reshape(shape)
@@ -807,7 +809,8 @@ def test_a_bar_of_colours_is_as_long_as_its_map(shape, place, along):
 
 @pytest.mark.parametrize("width", [0.178, 0.085])
 def test_a_picture_of_a_contact_has_no_empty_band(tmp_path, solved, width):
-    """Of the pixels: white rows at the edges are less than 4 mm high, and between the panels less than 8 % of the picture."""
+    """Of the pixels: white rows at the edges are less than 4 mm high, and between the panels less than 8 % of the
+    picture."""
     (prepared, point) = solved
     plot_contact(tmp_path / "c.png", drawn_contact(prepared, point), PictureOptions(width=width, dpi=60))
     pixels = imread(tmp_path / "c.png")[..., :3].min(axis=2)
@@ -819,7 +822,8 @@ def test_a_picture_of_a_contact_has_no_empty_band(tmp_path, solved, width):
 
 @pytest.mark.parametrize("renamed", [False, True])
 def test_a_record_of_version_0_2_0_is_read(tmp_path, renamed):
-    """Its violations have "remedy" in place of a recommendation, and none of the fields that came later; others are refused."""
+    """Its violations have "remedy" in place of a recommendation, and none of the fields that came later; others are
+    refused."""
     old = {"what": "film pressure", "value": 1.2, "limit": 1.0, "unit": "GPa", "consequence": "why", "severe": False}
     old |= {"advice" if renamed else "remedy": "less"}
     record = {"scene": {"name": "old"}, "points": [{"validity": [old]}]}

@@ -382,8 +382,8 @@ def test_info_of_a_traction_curve_promises_no_model_at_the_points_where_f_is_nea
 
 
 def test_info_says_what_a_strip_takes_if_its_cells_have_to_be_shorter():
-    """On cells half a correlation length long along y a strip may be solved again; on the shorter cells of the scene, and with
-    a wider target of the error, it is not."""
+    """On cells half a correlation length long along y a strip may be solved again; on the shorter cells of the scene,
+    and with a wider target of the error, it is not."""
     rough = {"sq": 2e-7, "correlation_length": 20e-6, "acf": "gaussian"}
     scene = lubfric.load_scene("paper").with_(
         bodies={"radius": 3e-3, "width": 10e-3, "load": 800.0},
@@ -528,7 +528,8 @@ def test_the_report_states_how_speed_and_viscosity_change_f_in_mixed_lubrication
 
 
 def test_the_table_of_a_run_in_time_has_the_values_of_each_moment():
-    """Load and speed never have their largest values together; nor does a run tell less of its inlet than a steady point."""
+    """Load and speed never have their largest values together; nor does a run tell less of its inlet than a steady
+    point."""
     scene = HEAVY.with_(lubricant={"inlet_length": 4e-4}).with_(
         transient=Transient(
             duration=1.0,
@@ -581,7 +582,8 @@ def test_info_says_that_load_sharing_answers_in_place_of_the_quick_model_under_a
 
 
 def test_info_states_between_which_ratios_a_traction_curve_will_not_show_f():
-    """Ratios in equal steps from 0 on do not show the knee of the Eyring stress; the solved curve finds the same gap."""
+    """Ratios in equal steps from 0 on do not show the knee of the Eyring stress; the solved curve finds the same
+    gap."""
     scene = HEAVY.with_(surface={"sq": 0.0}, lubricant={"eyring_stress": 5e6})
     coarse = [0.0, 0.1, 0.2, 0.3, 0.4]
     (gap, *_) = lubfric.traction(scene, coarse, speed=1.0).gaps

@@ -1,4 +1,5 @@
-"""Measured points beside a curve: their error bars are the 95 % intervals of the stated deviations, and they are named."""
+"""Measured points beside a curve: their error bars are the 95 % intervals of the stated deviations, and they are
+named."""
 
 import json
 

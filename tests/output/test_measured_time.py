@@ -87,8 +87,8 @@ def test_info_at_rest_solves_nothing(monkeypatch, capsys):
 
 
 def test_a_rolling_contact_has_cells_enough(needle):
-    """Six in the half-width of the rough contact, √(b² + 2 R Sq) = 32 µm, where roughness moves; of a body at rest two in that of
-    the Hertz strip, b = 21.5 µm."""
+    """Six in the half-width of the rough contact, √(b² + 2 R Sq) = 32 µm, where roughness moves; of a body at rest two
+    in that of the Hertz strip, b = 21.5 µm."""
     rolling = lubfric.load_scene(needle)
     at_rest = rolling.with_(motion={"slip_percent": 200.0})
     along = [lubfric.prepare(scene).sample.cells.spacing[0] for scene in (rolling, at_rest)]

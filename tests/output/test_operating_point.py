@@ -1,4 +1,5 @@
-"""The scene's own speed is solved beside its speed range, and named: in the messages, the table, the picture, the report."""
+"""The scene's own speed is solved beside its speed range, and named: in the messages, the table, the picture, the
+report."""
 
 import json
 import re
@@ -45,8 +46,8 @@ def test_a_speed_of_the_scene_outside_its_range_is_solved_and_named(tmp_path, ca
     [(0.1 * (1 + 1e-12), [0.01, 0.1]), (0.0, [0.01, 0.1]), (-0.05, [0.01, 0.1]), (0.5, [0.01, 0.1, 0.5])],
 )
 def test_info_counts_the_speeds_that_a_run_solves(speed, solved):
-    """A speed that is one of the range but for rounding is no second one; none at rest or in the other direction belongs to
-    the curve."""
+    """A speed that is one of the range but for rounding is no second one; none at rest or in the other direction
+    belongs to the curve."""
     given = tomllib.loads(scene(f"entrainment_speed = {speed!r}\nspeed_range = [0.01, 0.1, 2]"))
     assert f"for {len(solved)} speeds" in " ".join(describe_scene(lubfric.load_scene(given)).split())
 
@@ -68,7 +69,8 @@ def test_speeds_of_the_command_alone_are_solved_and_the_first_lines_say_so(tmp_p
 
 @pytest.mark.parametrize("option", ["--speeds=0.01,0.1", "--ratios=0.1,0.2"])
 def test_info_estimates_the_points_that_a_run_with_the_same_option_solves(tmp_path, capsys, option):
-    """A row of the operating point was in the table of speeds that the run did not solve; of ratios one point was estimated."""
+    """A row of the operating point was in the table of speeds that the run did not solve; of ratios one point was
+    estimated."""
     (tmp_path / "scene.toml").write_text(scene("entrainment_speed = 0.05"))
     assert main(["info", str(tmp_path / "scene.toml"), option]) == 0
     text = capsys.readouterr().out

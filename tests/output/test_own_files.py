@@ -107,7 +107,8 @@ INPUTS = {
 
 
 def command_that_reads(kind, name):
-    """Write an input of ``kind`` called ``name``, and what else its command reads, to this folder; return the command."""
+    """Write an input of ``kind`` called ``name``, and what else its command reads, to this folder; return the
+    command."""
     text = SCENE
     if kind == "map":
         np.savetxt(name, np.random.default_rng(1).normal(size=(64, 64)) * 1e-7, delimiter=",")

@@ -1,4 +1,5 @@
-"""The stated processor time of a command with several processes, against what the system counts of them when they have ended."""
+"""The stated processor time of a command with several processes, against what the system counts of them when they have
+ended."""
 
 import json
 import re

@@ -1,5 +1,5 @@
-"""report.html in a real browser: it fits a phone, a window and a sheet of paper, its pictures are there, and no word of a
-user runs as a script."""
+"""report.html in a real browser: it fits a phone, a window and a sheet of paper, its pictures are there, and no word of
+a user runs as a script."""
 
 import csv
 import json
@@ -109,8 +109,8 @@ def frames_of(folder):
 
 @pytest.fixture(scope="module")
 def looks(folder_of, tmp_path_factory):
-    """What is seen of the report of each command in frames of `WIDTHS`, by their names, in one start of the browser: a window is at
-    least 500 px wide."""
+    """What is seen of the report of each command in frames of `WIDTHS`, by their names, in one start of the browser: a
+    window is at least 500 px wide."""
     folder = tmp_path_factory.mktemp("looks")
     frames = [frame for kind in COMMANDS for frame in frames_of(folder_of(kind))]
     (folder / "look.html").write_text(f'<meta charset="utf-8"><body>{"".join(frames)}{LOOK}', encoding="utf-8")
@@ -121,7 +121,8 @@ def looks(folder_of, tmp_path_factory):
 
 @pytest.mark.parametrize("kind", COMMANDS)
 def test_every_report_fits_a_phone_a_window_and_paper(looks, kind):
-    """Nothing is wider than its page, and no table than a phone, a window or a sheet; a tablet scrolls a table by itself."""
+    """Nothing is wider than its page, and no table than a phone, a window or a sheet; a tablet scrolls a table by
+    itself."""
     for name, seen in looks[kind].items():
         assert seen["title"] == NAME and seen["head"].startswith(NAME) and seen["status"].startswith("Converged: ")
         assert seen["drawn"] and seen["images"] == PICTURES[kind]

@@ -298,7 +298,8 @@ def test_a_notebook_shows_a_table_and_a_picture(point, curve, history):
 
 @pytest.mark.parametrize("speed", [0.5, 5.0, 50.0])
 def test_the_heat_of_the_inlet_does_not_thin_a_given_film_that_arrives(speed):
-    """A flooded film grows with the speed more slowly than without heat; of a starved one what arrives is what there is."""
+    """A flooded film grows with the speed more slowly than without heat; of a starved one what arrives is what there
+    is."""
     scene = lubfric.load_scene("paper").with_(
         lubricant={"viscosity": None, "pressure_viscosity_coefficient": None, "grade": "ISO VG 460"}
         | {"viscosity_index": 95, "temperature": "40 °C"},

@@ -1,4 +1,5 @@
-"""Thirty typical slips of a user: each is answered by words that recommend what to do, none gives a number without a word.
+"""Thirty typical slips of a user: each is answered by words that recommend what to do, none gives a number without a
+word.
 
 A slip is a scene file with one mistake. It is answered by an error, by a refusal (`ValidityError`), or by a warning on
 the result that names the mistaken value. Other units of other keys: tests/scene/test_plausible.py.

@@ -1,5 +1,5 @@
-"""study.png and the pictures of curves in a journal's column and across a page: no text is cut or meets another, none is
-smaller than 6 pt, and lines tell apart what is varied."""
+"""study.png and the pictures of curves in a journal's column and across a page: no text is cut or meets another, none
+is smaller than 6 pt, and lines tell apart what is varied."""
 
 import itertools
 from dataclasses import replace
@@ -138,7 +138,8 @@ def drawn(monkeypatch):
 
 
 def texts_of(figure):
-    """The texts that a drawn ``figure`` shows, with their boxes [pixel]; two names of tick labels that are on one place are one."""
+    """The texts that a drawn ``figure`` shows, with their boxes [pixel]; two names of tick labels that are on one place
+    are one."""
     figure.set_dpi(PRINTED)
     figure.canvas.draw()
     hidden = {id(text) for axes in figure.axes if not axes.get_visible() for text in axes.findobj(Text)}
@@ -287,7 +288,8 @@ def test_a_run_in_time_fits_a_column_and_a_page(tmp_path, drawn, width):
 
 
 def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
-    """For each speed the mean over all other inputs, between the smallest and the largest f; the largest part of the variance first."""
+    """For each speed the mean over all other inputs, between the smallest and the largest f; the largest part of the
+    variance first."""
     vary, speeds = STUDIES["four keys over two speeds"]
     result = made_study(vary, speeds)
     f = 0.01 * np.indices(f_shape := result.status.shape)[0] + 0.002 * np.indices(f_shape)[1] + 0.05

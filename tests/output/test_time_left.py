@@ -72,8 +72,8 @@ def test_more_than_was_estimated_is_extrapolated_from_what_was_taken():
 
 
 def test_points_of_two_processes_correct_the_others_by_all_that_ended():
-    """Seven points that take three times their estimates, of different lengths: from the second that ended on, the time left
-    is within 40 % of the true one, and never longer than what a point more would add."""
+    """Seven points that take three times their estimates, of different lengths: from the second that ended on, the time
+    left is within 40 % of the true one, and never longer than what a point more would add."""
     machine = Machine()
     estimates = dict(zip("abcdefg", [30.0, 18.0, 18.0, 18.0, 18.0, 18.0, 30.0]))
     left = machine.left(estimates, processes=2)

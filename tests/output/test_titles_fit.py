@@ -42,7 +42,8 @@ def test_titles_of_the_surface_are_complete(tmp_path, monkeypatch, shape):
 
 @pytest.mark.parametrize("shape, lines", [((256, 128), 3), ((200, 150), 3), ((256, 100), 1)])
 def test_no_empty_band_is_above_a_wide_map(tmp_path, shape, lines):
-    """White rows above it in the picture, in lines of text: beside a bearing curve, whose title has two, and above one."""
+    """White rows above it in the picture, in lines of text: beside a bearing curve, whose title has two, and above
+    one."""
     scene = PAPER.with_(contact={"shape": shape, "spacing": 1e-6}, numerics={"sampling": "patch"})
     plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
     pixels = imread(tmp_path / "surface.png")[:, :, :3]

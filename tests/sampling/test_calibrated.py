@@ -85,8 +85,8 @@ def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, row
 
 @pytest.mark.parametrize(("film", "per_length"), [(2.0, 2.0), (0.4, 3.0), (0.1, 2.0)])
 def test_cells_in_motion_are_shorter_where_f_hangs_on_the_boundary_film(film, per_length):
-    """On one map: neither where the film separates the surfaces nor where asperities carry the load. As many cells as are needed, and not one more, are in the
-    shorter one of the correlation length and the half-width."""
+    """On one map: neither where the film separates the surfaces nor where asperities carry the load. As many cells as
+    are needed, and not one more, are in the shorter one of the correlation length and the half-width."""
     scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5}, bodies={"boundary_film": 2e-8})
     surface = patch((48, 16), (1.8e-6, 2.4e-6))
     speed = speed_of(scene, film * surface.sq)
@@ -101,8 +101,8 @@ def test_cells_in_motion_are_shorter_where_f_hangs_on_the_boundary_film(film, pe
 
 @given(st.integers(1, 40), st.booleans(), st.integers(0, 5))
 def test_a_map_on_other_cells_has_the_heights_of_its_waves(count, periodic, wave):
-    """A cosine that is symmetric about the ends is its own mirror image, and any wave shorter than that is left as it is. On
-    cells three times as long the heights are those of every third cell."""
+    """A cosine that is symmetric about the ends is its own mirror image, and any wave shorter than that is left as it
+    is. On cells three times as long the heights are those of every third cell."""
     nx = 42
     dx = 0.5e-6
 
@@ -199,8 +199,8 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_intervals_hold_the_scatter_of_other_samples():
     """Some strips of the line are solved, with the line as their control: what other seeds differ by is in the sampling
-    error, and in the scatter of the difference between strips and line. The limit of the oil is stated, or it would cover
-    that."""
+    error, and in the scatter of the difference between strips and line. The limit of the oil is stated, or it would
+    cover that."""
     scene = PAPER.with_(numerics={"model": "quick"}, lubricant={"limiting_stress_coefficient": "f_b"})
     results = [lubfric.friction(scene.with_(surface={"seed": seed}), 0.03) for seed in range(1, 4)]
     mean = float(np.mean([result.coefficient for result in results]))
@@ -372,7 +372,8 @@ def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
 
 
 def test_the_bounds_grow_with_the_rolling_part_less_than_in_proportion():
-    """Eleven solved cases whose rolling part is the larger one scatter by 0.6 in ln of the sliding part, at most 1.4."""
+    """Eleven solved cases whose rolling part is the larger one scatter by 0.6 in ln of the sliding part, at most
+    1.4."""
     alike = {"at_half_film": 0.05, "at_twice_film": 0.05}
     (small, even, large) = (
         half_width("rolling", rolling=part * 0.05 / (1 + part), **alike) for part in (0.01, 1.0, 10.0)
@@ -533,7 +534,8 @@ def test_a_stated_limit_of_f_b_is_for_newtonian_oils_and_survives_a_file(tmp_pat
 
 
 def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
-    """A limit of f_b p as a law of the oil, and as the cap of a Newtonian one: the same load at a limit, in two parts."""
+    """A limit of f_b p as a law of the oil, and as the cap of a Newtonian one: the same load at a limit, in two
+    parts."""
     limit = {"limiting_stress_coefficient": PAPER.bodies.boundary_friction_coefficient}
     limited = point(PAPER.with_(lubricant=limit, numerics=LOOSE), 0.03)
     load = PAPER.bodies.load
@@ -556,8 +558,8 @@ def test_a_starved_interval_of_load_sharing_holds_the_deterministic_answer(film,
 
 
 def test_a_power_law_has_no_more_friction_than_a_limit_allows():
-    """Carreau's stress grows without end, as a Newtonian one: where the film carries asperities it is cut at f_b p, and the
-    interval has the limits of oils unless f_b is stated. No solved case has such an oil, which the answer says."""
+    """Carreau's stress grows without end, as a Newtonian one: where the film carries asperities it is cut at f_b p, and
+    the interval has the limits of oils unless f_b is stated. No solved case has such an oil, which the answer says."""
     carreau = PAPER.with_(lubricant={"carreau": [5e6, 0.6]}, numerics={"model": "quick", "sampling_tolerance": 0.3})
     assert carreau.lubricant.has_unlimited_stress
     result = lubfric.friction(carreau, 0.03, tolerance=0.1)
@@ -688,8 +690,8 @@ def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_m
 
 
 def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
-    """f is rolling and sliding, of opposite signs on one side of pure rolling: its error is no larger than a few times both,
-    however near to 0 their sum is."""
+    """f is rolling and sliding, of opposite signs on one side of pure rolling: its error is no larger than a few times
+    both, however near to 0 their sum is."""
     error_of = error_models()["rest"].rolling_error
     assert error_of(-1e-4, 3e-4) == pytest.approx(2 * error_of(1e-4, 0.0)) and error_of(1e-4, 0.0) > 0
     scene = HEAVIER.with_(numerics={"model": "quick"} | LOOSE)

@@ -165,7 +165,8 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
 
 @pytest.mark.parametrize("columns", [60, 100, 140])
 def test_no_asperity_counts_twice_where_a_map_is_continued_by_its_mirror_image(tmp_path, columns):
-    """The columns under the Hertz strips of all windows, numbered by the first row of the map, are of different places."""
+    """The columns under the Hertz strips of all windows, numbered by the first row of the map, are of different
+    places."""
     heights = lubfric.generate_surface((columns, 200), 0.5e-6, sq=80e-9, correlation_length=1.5e-6, seed=2).heights
     np.save(tmp_path / "map.npy", heights)
     scene = PAPER.with_(

@@ -64,7 +64,8 @@ def test_the_interval_of_eq_8_has_the_doubt_about_heat_too():
 
 
 def test_much_heat_is_left_to_the_quick_answer_or_reported():
-    """Half of what heat does counts as error, so that shorter cells would be of no use. Cells apart, both are one model."""
+    """Half of what heat does counts as error, so that shorter cells would be of no use. Cells apart, both are one
+    model."""
     auto, requested = (solved(3.0, model=model) for model in ("auto", "deterministic"))
     assert auto.decision.model == "quick" and "of its thickness, and f by" in auto.decision.text
     assert auto.coefficient == pytest.approx(requested.coefficient, rel=0.1)

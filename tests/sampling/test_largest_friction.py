@@ -68,7 +68,8 @@ def test_ranges_count_with_their_largest_end_and_pure_rolling_has_no_bound():
 
 @pytest.mark.parametrize("model", ["paper", "quick"])
 def test_no_interval_reaches_beyond_f_b_where_asperities_carry_nearly_all(model):
-    """The film hardly moves: f is f_b, and its upper end the upper end of f_b's range, with the sentence that says why."""
+    """The film hardly moves: f is f_b, and its upper end the upper end of f_b's range, with the sentence that says
+    why."""
     scene = PAPER.with_(
         bodies={"boundary_friction_coefficient": [0.11, 0.08, 0.14]},
         numerics={"model": model, "sampling_tolerance": 0.2, "tolerance": 0.1},

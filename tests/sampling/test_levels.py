@@ -73,7 +73,8 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
 
 
 def test_a_map_whose_strips_are_all_solved_has_a_sampling_error_and_none_of_the_difference(tmp_path):
-    """Eq. (8) says nothing of strips that are solved anyway, so what they scatter is chance. Oracle: their f one by one."""
+    """Eq. (8) says nothing of strips that are solved anyway, so what they scatter is chance. Oracle: their f one by
+    one."""
     np.save(
         tmp_path / "map.npy",
         lubfric.generate_surface((100, 100), 3.6e-6, sq=2.4e-7, correlation_length=1.6e-5, seed=5).heights,
@@ -154,8 +155,8 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
 
 
 def test_where_shorter_cells_lower_f_no_part_of_it_changes_its_sign(monkeypatch):
-    """Where asperities carry the load, f of pieces falls by .6 % on cells of half the length and their loads do not; where
-    the film does, its force has all of it."""
+    """Where asperities carry the load, f of pieces falls by .6 % on cells of half the length and their loads do not;
+    where the film does, its force has all of it."""
     prepared = lubfric.prepare(FINE)
     load = FINE.bodies.load
     f_b = FINE.bodies.boundary_friction_coefficient
@@ -241,7 +242,8 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     ],
 )
 def test_advice_to_take_shorter_cells_says_what_they_take(work, advice):
-    """Twice as many cells along x need twice as many steps, too: four times the work, and twice that for those along y."""
+    """Twice as many cells along x need twice as many steps, too: four times the work, and twice that for those along
+    y."""
     prepared = lubfric.prepare(FINE.with_(motion=ROLLING))
     (fx, fy) = surface_and_map_coarsening(prepared, 0)[1]
     (cx, cy) = prepared.sample.cells.coarsening
@@ -260,8 +262,8 @@ def test_advice_on_cells_that_are_those_of_the_map_along_x_gives_their_length():
 
 
 def test_a_given_grid_ends_at_the_cells_of_the_scene_and_the_advice_beyond_them_helps():
-    """Strips on cells twice as long take the effect of the scene's own from pieces, whatever the tolerance; what is said where
-    these are too long lowers the error."""
+    """Strips on cells twice as long take the effect of the scene's own from pieces, whatever the tolerance; what is
+    said where these are too long lowers the error."""
     numerics = {"model": "deterministic", "sampling_tolerance": 0.2}
     scene = lubfric.load_scene("paper").with_(contact={"spacing": 2e-6}, numerics=numerics)
     for grid, tolerance, expected_pieces in (("auto", 0.2, 0), ("given", 0.2, 1), ("auto", 0.01, 1)):
@@ -369,8 +371,8 @@ def test_a_patch_has_one_answer_by_whatever_name_and_goes_to_its_own_cells():
 
 
 def test_a_patch_divides_load_and_friction_as_its_shortest_cells_do():
-    """Solved by hand on the map's own cells, where asperities carry nearly all: on longer ones the rolling part is another, and
-    what it leaves of f to the sliding film may be of the other sign."""
+    """Solved by hand on the map's own cells, where asperities carry nearly all: on longer ones the rolling part is
+    another, and what it leaves of f to the sliding film may be of the other sign."""
     patch = PATCH.with_(contact={"shape": (80, 64), "spacing": 1.2e-6}, numerics={"tolerance": 1e-4})
     for speed in (3e-4, 0.003):
         point = lubfric.friction(patch, speed, model="deterministic")
@@ -449,7 +451,8 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
 
 def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared):
     """Every strip of the line, solved by Eq. (8) as a line of its own: to first order f, the loads, the forces and the
-    gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
+    gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the
+    mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "paper", "sampling_tolerance": 0.004}))
     result = solve_to_tolerance(prepared, 0.005, PaperModel())
     line = control_variate_of(result)

@@ -229,7 +229,8 @@ def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
 
 
 def test_reader_and_scene_advise_one_form_whatever_the_outliers(maps):
-    """A dome, ten times higher along x, under spikes: a cylinder leaves little more than a paraboloid until the spikes are masked."""
+    """A dome, ten times higher along x, under spikes: a cylinder leaves little more than a paraboloid until the spikes
+    are masked."""
     heights = np.load(maps / "long.npy")
     x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
     heights = heights - 4e-6 * x**2 - 1e-6 * y**2
@@ -260,7 +261,8 @@ def read_note(path):
     ],
 )
 def test_a_form_that_is_most_of_a_map_is_a_warning(maps, curved, key, advised):
-    """A barrel or a dome of ten times Sq: its share of Sq² is 1 - 1/(1 + ratio²); each form is advised where it is enough."""
+    """A barrel or a dome of ten times Sq: its share of Sq² is 1 - 1/(1 + ratio²); each form is advised where it is
+    enough."""
     heights = np.load(maps / "long.npy")
     x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
     heights = heights - 4e-6 * ((y**2 if curved == "y" else x**2 + y**2) - x / 9)
@@ -370,7 +372,8 @@ def test_the_shorter_of_two_maps_is_named(maps):
 
 @pytest.mark.parametrize("columns, gives_interval", [(160, True), (40, False)])
 def test_to_omit_a_patch_is_advised_only_where_strips_of_its_map_give_an_interval(maps, columns, gives_interval):
-    """A map for one strip alone has no more correlation lengths than the patch; the advice, followed, gives an interval."""
+    """A map for one strip alone has no more correlation lengths than the patch; the advice, followed, gives an
+    interval."""
     np.save(maps / "own.npy", np.load(maps / "long.npy")[:columns])
     scene = loaded(maps, f"[surface]\nfile = 'own.npy'\nspacing = {GRID}\n")
     patch = lubfric.prepare(scene.with_(numerics={"sampling": "patch"}))
@@ -384,8 +387,8 @@ def test_to_omit_a_patch_is_advised_only_where_strips_of_its_map_give_an_interva
     "rise, is_short", [(0.5, True), (2.0, False)]
 )  # of the cylinder at the ends of the map, over Sq
 def test_a_map_whose_ends_cut_the_contact_off_is_named_beforehand(rise, is_short, tmp_path):
-    """By the parabola of the cylinder over the ends of the map; with its mirror image no map is too short, and to omit it is
-    not advised."""
+    """By the parabola of the cylinder over the ends of the map; with its mirror image no map is too short, and to omit
+    it is not advised."""
     sq = 1e-7
     scene = lubfric.load_scene("paper").with_(bodies={"load": 2000.0}, contact={"shape": None, "spacing": None})
     half = math.sqrt(scene.bodies.half_width**2 + 2 * scene.bodies.radius * rise * sq)
@@ -459,7 +462,8 @@ def test_the_sq_of_a_strip_is_stated_beside_that_of_its_map_with_what_sampling_e
 
 
 def test_the_middle_of_a_mirrored_map_is_under_that_of_the_strip(maps):
-    """Its seams lie at both sides: the measured piece of 12 columns carries the load in the middle, not its edge twice."""
+    """Its seams lie at both sides: the measured piece of 12 columns carries the load in the middle, not its edge
+    twice."""
     given = f"[surface]\nfile = 'short.npy'\nspacing = {GRID}\nextension = 'mirror'\n"
     sample = lubfric.prepare(loaded(maps, given)).sample
     assert sample.cells.coarsening[1] == 1 and sample.available_strips == 1

@@ -19,7 +19,8 @@ SPEED = 0.03
 
 
 def test_a_point_that_would_take_more_work_is_answered_by_load_sharing():
-    """The interval holds the answer without a limit; the same limit gives the same bits; enough work changes nothing."""
+    """The interval holds the answer without a limit; the same limit gives the same bits; enough work changes
+    nothing."""
     full = lubfric.friction(PAPER, SPEED)
     short = [lubfric.friction(PAPER.with_(numerics={"max_work": 0.05}), SPEED) for _ in range(2)]
     low, high = short[0].uncertainty.interval
@@ -115,8 +116,8 @@ def test_parts_on_processes_count_their_work_as_if_done_in_order():
 
 
 def test_what_answers_after_a_model_gave_up_has_a_limit_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A soft seal in water: neither the deterministic model nor the quick model is solved within the limit. The quick model,
-    which solves its strips when it is asked for them, took 130 s more than the limit."""
+    """A soft seal in water: neither the deterministic model nor the quick model is solved within the limit. The quick
+    model, which solves its strips when it is asked for them, took 130 s more than the limit."""
     monkeypatch.setattr("lubfric.estimate.choice.LEAST_WORK_OF_CHEAPEST", 1.0)
     seal = PAPER.with_(
         bodies={
@@ -169,7 +170,8 @@ def test_a_point_that_ran_out_of_work_leaves_nothing_to_the_next():
 
 
 def test_the_contact_of_a_prepared_scene_is_counted_before_and_after_a_pickle():
-    """The curve of a flat contact is made once, by `lubfric.prepare`: a limit that it exceeds alone ends every point."""
+    """The curve of a flat contact is made once, by `lubfric.prepare`: a limit that it exceeds alone ends every
+    point."""
     scene = lubfric.load_scene("flat").with_(
         contact={"shape": (64, 64), "spacing": 8e-6},
         surface={"correlation_length": 24e-6},
@@ -199,7 +201,8 @@ def solved(prepared):
 
 
 def test_a_thick_film_over_asperities_in_contact_takes_no_balance(monkeypatch):
-    """Λ 3.4 at 0.4 GPa: load sharing cannot answer, because asperities touch, so that all it takes is the full-load film."""
+    """Λ 3.4 at 0.4 GPa: load sharing cannot answer, because asperities touch, so that all it takes is the full-load
+    film."""
 
     def strips(*_):
         raise StopIteration

@@ -1,4 +1,5 @@
-"""``numerics.max_work`` in every kind of run: what was reached, a status that says so, or a refusal; by counted work."""
+"""``numerics.max_work`` in every kind of run: what was reached, a status that says so, or a refusal; by counted
+work."""
 
 from functools import partial
 

@@ -90,7 +90,8 @@ def test_a_sliding_that_looks_like_the_other_convention_is_questioned(motion, qu
 
 
 def test_the_ratio_of_given_speeds_is_in_no_other_unit():
-    """U = 0.1 m/s and 2 m/s of sliding: a ratio of 20, which 20 % were not meant to be; the limit has the sign of the value."""
+    """U = 0.1 m/s and 2 m/s of sliding: a ratio of 20, which 20 % were not meant to be; the limit has the sign of the
+    value."""
     paper = lubfric.load_scene("paper")
     speeds = {"surface_speeds": [-0.9, 1.1], "entrainment_speed": None, "slide_roll_ratio": None}
     assert unusual_values(paper.with_(motion=speeds)) == ()

@@ -112,8 +112,8 @@ def test_the_deterministic_answer_has_its_ranges_too():
 
 @pytest.mark.parametrize("model", ["paper", "quick"])
 def test_the_change_by_a_pressure_viscosity_coefficient_is_that_of_points_at_both_ends(model):
-    """Within the residuals of the solves, on the same cells. The quick model calibrates f at each end by itself, so its f
-    before that is compared."""
+    """Within the residuals of the solves, on the same cells. The quick model calibrates f at each end by itself, so its
+    f before that is compared."""
     contact = {"shape": (24, 24), "spacing": 90e-6 / 24}
     scene = SMALL.with_(contact=contact, numerics={"model": model, "sampling": "patch"})
 
@@ -144,8 +144,8 @@ def test_a_range_of_the_pressure_viscosity_coefficient_of_an_oil_changes_nothing
 
 
 def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
-    """At the value itself the change is 0, so that ends which both lower f leave 0 as the upper end. What the rounding of
-    a solve leaves is 0, too."""
+    """At the value itself the change is 0, so that ends which both lower f leave 0 as the upper end. What the rounding
+    of a solve leaves is 0, too."""
     known = f(SMALL.with_(numerics={"model": "paper"}))
     plain = replace(known.uncertainty, notes=())
     changes = {"bodies.hardness": (-0.0005, -0.001), "lubricant.eyring_stress": (0.002, -0.001)}
@@ -157,8 +157,8 @@ def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
 
 @pytest.mark.parametrize("motion", [{}, {"slide_roll_ratio": 0.3}])
 def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
-    """The middle is the answer itself. A hardness above every pressure of the contact changes nothing, so an end that is
-    that hard is not solved where the middle is too; one that the pressure reaches is."""
+    """The middle is the answer itself. A hardness above every pressure of the contact changes nothing, so an end that
+    is that hard is not solved where the middle is too; one that the pressure reaches is."""
     solves = []
 
     def counted(solve):

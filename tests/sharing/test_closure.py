@@ -19,7 +19,8 @@ SMALL = paper_scene(
 
 @pytest.fixture
 def demand(monkeypatch):
-    """Make the gap that the closure demands wider by `FACTOR` and narrower by some length [m], wherever it is imported."""
+    """Make the gap that the closure demands wider by `FACTOR` and narrower by some length [m], wherever it is
+    imported."""
 
     def narrower_by(length):
         others = {
@@ -50,8 +51,8 @@ def test_another_closure_holds_in_a_point_and_in_time(demand):
 
 
 def test_the_film_that_clears_the_summits_at_a_start_is_that_of_the_closure(demand):
-    """A run that begins with a film in the air is refused while summits touch: the film that clears them is thinner where
-    the closure demands a wider gap."""
+    """A run that begins with a film in the air is refused while summits touch: the film that clears them is thinner
+    where the closure demands a wider gap."""
 
     def allowed():
         touching = SMALL.with_(transient=lubfric.Transient(1e-4, initial_film=1e-9))

@@ -118,7 +118,8 @@ def test_in_time_at_a_steady_speed_it_is_that_of_the_steady_point(model):
 
 
 def test_where_roughness_moves_the_rolling_resistance_is_that_of_the_smooth_film():
-    """The moment of its pressure over R, with Johnson's modulus; the moment on a strip is that of the summits passing."""
+    """The moment of its pressure over R, with Johnson's modulus; the moment on a strip is that of the summits
+    passing."""
     scene = ROUGH.with_(motion={"slide_roll_ratio": 0.5}, numerics={"model": "quick"})
     result = lubfric.friction(scene, 0.1)
     assert result.decision.model == "quick"

@@ -53,8 +53,9 @@ def test_the_largest_change_by_an_estimated_pressure_viscosity_coefficient_is_st
     assert len(without) == len(ends) - 1 and alpha_of_points_in_words({1: without}, 1) == ""
 
 
-# Asperity load ratio, f and its changes with the lowest and the highest pressure-viscosity coefficient of measured oils, solved by the
-# quick model: contacts at rest (slide-roll ratio 2) and rolling, Newtonian and of 5 MPa, under 50 N and 2 kN.
+# Asperity load ratio, f and its changes with the lowest and the highest pressure-viscosity coefficient of measured
+# oils, solved by the quick model: contacts at rest (slide-roll ratio 2) and rolling, Newtonian and of 5 MPa, under 50 N
+# and 2 kN.
 SOLVED_ENDS = [
     (0.03, 5e6, 2e3, 0.1, 0.889, 0.0987, 0.0101, -0.00157),
     (0.03, 5e6, 2e3, 1.0, 0.235, 0.0519, 0.00435, 0.181),
@@ -238,7 +239,8 @@ def test_the_correlation_length_of_a_measured_map_is_no_effect(tmp_path):
 
 
 def test_a_thinner_film_moves_load_to_asperities_as_solved_contacts_show():
-    """In mixed lubrication f of the quick model rises where the film is thinner, as solved again; by load sharing it rises by less."""
+    """In mixed lubrication f of the quick model rises where the film is thinner, as solved again; by load sharing it
+    rises by less."""
     loose = {"sampling_tolerance": 0.3, "tolerance": 0.05}
     scene = ROLLER.with_(
         surface={"correlation_length": 3e-5},

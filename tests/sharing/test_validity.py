@@ -162,8 +162,8 @@ def test_a_contact_on_the_edge_columns_of_a_patch_is_refused(grid, column):
 
 
 def test_a_contact_that_only_load_sharing_cuts_off_is_answered_by_default():
-    """A bump at the end of a patch carries the load. f is that on the patch between its own mirror images, whose contact no
-    end cuts off."""
+    """A bump at the end of a patch carries the load. f is that on the patch between its own mirror images, whose
+    contact no end cuts off."""
     numerics = {"sampling": "patch", "model": "auto"}
     scene = lubfric.load_scene("paper").with_(contact={"shape": (48, 24), "spacing": 1.8e-6}, numerics=numerics)
     rough = lubfric.prepare(scene).surface
@@ -275,7 +275,8 @@ def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
 
 
 def test_a_pressure_at_which_no_oil_is_liquid_is_apart_from_one_above_the_viscosity_law():
-    """Of the made pressures 3 GPa is three times its limit and 12 GPa a fifth above its own, which is the stronger one."""
+    """Of the made pressures 3 GPa is three times its limit and 12 GPa a fifth above its own, which is the stronger
+    one."""
     elastic = PAPER.with_(bodies={"hertz_pressure": 0.5e9, "hardness": None})
     at = [
         (u, tuple(violations_by_pressure(elastic, p, "of one film")))
@@ -421,7 +422,8 @@ def test_a_former_name_of_the_recommendation_names_that_of_today():
 
 @pytest.mark.parametrize("sliding, is_opposed", [(-2.5133, False), (-2.55, True)])
 def test_rounded_speeds_of_a_body_at_rest_do_not_make_it_move_against_the_other(sliding, is_opposed):
-    """A follower at rest on the base circle of a cam, with speeds of four digits: U = 1.2566 m/s, u2 - u1 = -2.5133 m/s."""
+    """A follower at rest on the base circle of a cam, with speeds of four digits: U = 1.2566 m/s, u2 - u1 = -2.5133
+    m/s."""
     scene = PAPER.with_(motion={"slide_roll_ratio": sliding / 1.2566})
     found = [violation.consequence for violation in violations_by_motion(scene, 1.2566, 3e-7)]
     assert any("opposite directions" in consequence for consequence in found) == is_opposed

@@ -111,7 +111,8 @@ def test_seeds_and_numerics_are_no_design():
 
 
 def test_all_columns_of_a_table_of_operating_points_are_conditions():
-    """The radius of a gear flank is no choice: it changes along the path of contact. In a table of radii alone it is one."""
+    """The radius of a gear flank is no choice: it changes along the path of contact. In a table of radii alone it is
+    one."""
     path = {"radius [mm]": [4, 5], "load [N]": [3, 5], "speed [m/s]": [0.1, 0.2]}
     scene = lubfric.load_scene("paper")
     flank = lubfric.plan_study(scene, {"surface.sq": [1e-7, 2e-7]}, points=path)
@@ -174,7 +175,8 @@ def test_combinations_that_are_not_listed_or_drawn_are_counted(tmp_path, monkeyp
 
 
 def with_shared_range(vary, f, part, own=0.0):
-    """A study of two designs with made f, whose interval has a relative ``part`` by ranges of inputs and an ``own`` one."""
+    """A study of two designs with made f, whose interval has a relative ``part`` by ranges of inputs and an ``own``
+    one."""
     scene = SCENE.with_(bodies={"boundary_friction_coefficient": [0.09, 0.15]})
     values = np.array(f)[:, None]
     made_study = made(values, values * math.hypot(part, own), scene=scene, vary=vary, speeds=[0.1])
@@ -202,7 +204,8 @@ def test_a_range_that_designs_share_leaves_the_difference_of_what_it_changes(own
     ],
 )
 def test_similar_designs_share_most_of_the_model_form_error(vary, model, is_alike):
-    """f of 0.05 and 0.08 with 40 % each: independent, the difference is uncertain by 0.038; with a correlation of .75 by 0.021."""
+    """f of 0.05 and 0.08 with 40 % each: independent, the difference is uncertain by 0.038; with a correlation of .75
+    by 0.021."""
     f = np.array([[0.05], [0.08]])
     scene = SCENE.with_(numerics={"model": model})
     (one,) = made(f, 0.4 * f, scene=scene, vary=vary, speeds=[0.1]).best()
@@ -212,7 +215,8 @@ def test_similar_designs_share_most_of_the_model_form_error(vary, model, is_alik
 @pytest.mark.parametrize("part", ["model_error", "numerical_error"])
 @pytest.mark.parametrize("towards, count", [(0.025, 1), (0.001, 0)])
 def test_errors_count_by_the_sides_that_face_each_other(part, towards, count):
-    """f of 0.05 and 0.08: with 0.025 above the first and below the second, the difference is uncertain by 0.035, otherwise by 0.001."""
+    """f of 0.05 and 0.08: with 0.025 above the first and below the second, the difference is uncertain by 0.035,
+    otherwise by 0.001."""
     away = 0.026 - towards
     f = np.array([[0.05], [0.08]])
     result = made(f, 0.0 * f, vary={"bodies.material": MATERIALS}, speeds=[0.1])
@@ -261,7 +265,8 @@ def test_the_answer_has_what_matters_most_and_then_the_best_design_and_says_wher
 
 
 def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_coefficient():
-    """That of the single runs of its points, with the number of the point; the plan states it before as a range that holds it."""
+    """That of the single runs of its points, with the number of the point; the plan states it before as a range that
+    holds it."""
     graded = SCENE.with_(
         lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60}, numerics={"model": "paper"}
     )

@@ -112,8 +112,8 @@ def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, si
 
 @pytest.mark.parametrize("numerical, is_stated", [(0.19, True), (0.5, False)])
 def test_lift_off_is_stated_with_the_errors_of_the_points_beside_it(numerical, is_stated):
-    """A numerical error of 50 % at a point beside it leaves the solved speeds. So does a film whose clearance is not computed:
-    its middle has the solved speeds as its range."""
+    """A numerical error of 50 % at a point beside it leaves the solved speeds. So does a film whose clearance is not
+    computed: its middle has the solved speeds as its range."""
     made = Made(0.05, 1.0)
     speeds = np.array([0.01, 0.03, 0.045, 0.06, 0.2])
     samples = made.samples(speeds)

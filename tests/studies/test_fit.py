@@ -114,7 +114,8 @@ def test_the_correlation_of_two_parameters_is_reported_in_a_sentence(fitted):
 
 
 def test_the_tolerance_that_a_fit_sets_is_its_own(tmp_path, capsys):
-    """A fifth of the stated 2.9876 % is 0.6 %: the fit says so, and the scene that it writes has the 3 % of the user."""
+    """A fifth of the stated 2.9876 % is 0.6 %: the fit says so, and the scene that it writes has the 3 % of the
+    user."""
     f = made_up(1, SPEEDS[::3], noise=0.0).coefficient
     rows = [f"{u:.6g},{value:.6g},{0.029876 * value:.6g}" for u, value in zip(SPEEDS[::3], f)]
     (tmp_path / "rig.csv").write_text("\n".join(["U [m/s],mu,s", *rows]))
@@ -538,7 +539,8 @@ def test_a_misspelt_parameter_of_the_command_is_named_before_its_unit(tmp_path, 
 
 def test_the_time_left_of_a_fit_corrects_the_estimates_by_the_clock(monkeypatch):
     """Curves of the search that took three times their estimate: those of the fit, of which none is solved yet, count
-    three times too; after one that took less they count as that. A curve beyond the expected ones raises their number."""
+    three times too; after one that took less they count as that. A curve beyond the expected ones raises their
+    number."""
     fit_module = import_module("lubfric.studies.fit")
     clock = [100.0]
     monkeypatch.setattr(fit_module, "processor_time", lambda: clock[0])
@@ -586,7 +588,8 @@ def counting_points(monkeypatch):
 
 
 def least_squares_of_a_line(measured):
-    """Return the f_b of f = f_b F_C/F_T + film with the least sum of squared relative deviations from ``measured``, and F_C/F_T."""
+    """Return the f_b of f = f_b F_C/F_T + film with the least sum of squared relative deviations from ``measured``, and
+    F_C/F_T."""
     balanced = lubfric.stribeck(SCENE, SPEEDS)
     share = balanced["contact_load"] / SCENE.bodies.load
     film = balanced.coefficient - SCENE.bodies.boundary_friction_coefficient * share
@@ -597,7 +600,8 @@ def least_squares_of_a_line(measured):
 
 @pytest.mark.parametrize("bounds, start", [((0.05, 0.2), 0.06), ((0.01, 0.9), 0.5)])
 def test_the_boundary_friction_alone_takes_no_further_balance(monkeypatch, bounds, start):
-    """f = f_b F_C/F_T + film at each point: the least squares of a line. One curve has the balances, one is the answer."""
+    """f = f_b F_C/F_T + film at each point: the least squares of a line. One curve has the balances, one is the
+    answer."""
     measured = made_up(1)
     (expected, share) = least_squares_of_a_line(measured)
     solved = counting_points(monkeypatch)

@@ -92,7 +92,8 @@ def test_the_number_of_starts_is_checked(starts, words):
 
 
 def test_random_residuals_are_doubted_as_often_as_stated():
-    """Lines through noise of five points and of twelve: 1 % are refused and 5 % doubted, although a line takes noise out."""
+    """Lines through noise of five points and of twelve: 1 % are refused and 5 % doubted, although a line takes noise
+    out."""
     rng = np.random.default_rng(5)
     for count in (5, 12):
         x = np.linspace(0.0, 1.0, count)
@@ -105,8 +106,8 @@ def test_random_residuals_are_doubted_as_often_as_stated():
 
 
 def test_one_clear_sign_is_not_hidden_by_the_other():
-    """By Bonferroni's bound the probability of the least of three signs is at most three times the least; noise of which the
-    further axes explain next to nothing, and slow waves, have one sign alone."""
+    """By Bonferroni's bound the probability of the least of three signs is at most three times the least; noise of
+    which the further axes explain next to nothing, and slow waves, have one sign alone."""
     rng = np.random.default_rng(8)
     x = np.linspace(0.0, 1.0, 12)
     axes = np.full((12, 1), 12**-0.5)

@@ -53,8 +53,8 @@ def followed(curves, a, b, scatter):
 
 
 class Saturating:
-    """Residuals a + (s(b) - s(0.4)) (w + 1) - 0.3 of a and b between 0 and 1, with w of length 1 and mean 0. Refitting a
-    takes off the mean: the profile of the sum of squares over b is (s(b) - s(0.4))² + const."""
+    """Residuals a + (s(b) - s(0.4)) (w + 1) - 0.3 of a and b between 0 and 1, with w of length 1 and mean 0. Refitting
+    a takes off the mean: the profile of the sum of squares over b is (s(b) - s(0.4))² + const."""
 
     FIT = np.array([0.3, 0.4])
 
@@ -194,7 +194,8 @@ def test_a_parameter_that_the_data_do_not_determine_does_not_look_determined_in_
 
 
 def test_a_parameter_with_one_limit_is_not_determined_on_the_other_side():
-    """f does not change with the limit at the fit: every value above 0.3 of its bounds fits. f_b ends at its upper bound."""
+    """f does not change with the limit at the fit: every value above 0.3 of its bounds fits. f_b ends at its upper
+    bound."""
     x = np.array([0.01, 0.02, 0.04, 0.08])
     limit = "lubricant.limiting_stress_coefficient"
     friction = "bodies.boundary_friction_coefficient"

@@ -1,4 +1,5 @@
-"""The time of a fit is processor time wherever it is stated beside an estimate, and its starts are one number everywhere."""
+"""The time of a fit is processor time wherever it is stated beside an estimate, and its starts are one number
+everywhere."""
 
 import re
 import time

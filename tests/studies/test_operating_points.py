@@ -54,7 +54,8 @@ def test_every_row_is_the_point_of_its_scene(result, points):
 
 
 def test_where_nothing_slides_the_power_is_the_resistance_of_both_surfaces(result):
-    """Point 2 rolls without slip: P = (F_1 + F_2) U. Its f counts in no mean and no smallest f, and a sentence says so."""
+    """Point 2 rolls without slip: P = (F_1 + F_2) U. Its f counts in no mean and no smallest f, and a sentence says
+    so."""
     assert result["power_loss"][1] == pytest.approx(result["rolling_resistance"][1] * 0.015, rel=1e-12)
     assert result.mean("coefficient") == pytest.approx(result["coefficient"][[0, 2]].mean(), rel=1e-12)
     assert np.argmin(np.abs(result["coefficient"])) == 1

@@ -58,7 +58,8 @@ def test_points_without_an_interval_are_counted():
 
 
 def test_the_report_says_where_a_patch_has_no_interval_and_how_short_it_is_there():
-    """Where roughness moves, 4 times the load has a Hertz strip twice as wide, and the same patch half as many half-widths."""
+    """Where roughness moves, 4 times the load has a Hertz strip twice as wide, and the same patch half as many
+    half-widths."""
     scene = SCENE.with_(motion={"slide_roll_ratio": 0.5}, numerics={"model": "paper"})
     result = lubfric.study(scene, vary={"bodies.load": [1.0, 4.0]}, speeds=[0.1])
     low = np.array([0.01, np.nan]).reshape(result.status.shape)

@@ -176,7 +176,8 @@ def test_killed_traction_curves_lose_and_repeat_nothing(tmp_path):
 
 
 def test_an_interrupted_traction_curve_is_drawn_and_serves_a_run_at_other_ratios(tmp_path, monkeypatch, capsys, draws):
-    """Its points are those of `lubfric.traction`; no ratio is solved twice, and what one run leaves out stays for another."""
+    """Its points are those of `lubfric.traction`; no ratio is solved twice, and what one run leaves out stays for
+    another."""
     out = tmp_path / "out"
     draws("traction.png")
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 4))
@@ -354,7 +355,8 @@ def test_another_unfinished_run_in_the_folder_is_kept_and_named(tmp_path, whole,
 
 
 def test_points_of_an_interrupted_run_serve_a_run_at_any_speeds_of_the_scene(tmp_path, whole, monkeypatch, capsys):
-    """The order of the speeds is that of the scene: 0.003, 0.01 (with fields) and 0.03 m/s are kept. No point is solved twice."""
+    """The order of the speeds is that of the scene: 0.003, 0.01 (with fields) and 0.03 m/s are kept. No point is solved
+    twice."""
     out = tmp_path / "out"
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 4))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 130

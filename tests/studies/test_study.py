@@ -96,8 +96,8 @@ def test_warnings_and_accepted_points_are_marked(tmp_path):
 
 
 def test_all_tables_have_one_name_for_one_number(tmp_path):
-    """A point of a Stribeck curve, of a traction curve and of a study is a row of the same numbers, whose headings agree but for
-    what each table is over."""
+    """A point of a Stribeck curve, of a traction curve and of a study is a row of the same numbers, whose headings
+    agree but for what each table is over."""
     lines = {
         "stribeck": lubfric.studies.csv_bytes(lubfric.stribeck(SCENE, [0.03])),
         "traction": lubfric.studies.csv_bytes(lubfric.traction(SCENE, [SCENE.motion.slide_roll_ratio], speed=0.03)),

@@ -136,7 +136,8 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
 
 @pytest.mark.parametrize("error, reached", [(0.0, False), (0.02, False), (1e3, True)])
 def test_shares_have_the_range_that_the_errors_of_f_leave(error, reached):
-    """None without errors. Of numbers that are errors alone, k values of an input in n points explain (k - 1)/(n - 1) on average."""
+    """None without errors. Of numbers that are errors alone, k values of an input in n points explain (k - 1)/(n - 1)
+    on average."""
     vary = {"bodies.load": [1.0, 2.0, 4.0, 8.0], "lubricant.viscosity": [0.1, 0.2, 0.4]}
     result = numbered(vary, lambda scene: scene.bodies.load**-1.0 * scene.lubricant.viscosity**0.5)
     errors = {"sampling_error": np.full(result.status.shape, error)}
@@ -371,7 +372,8 @@ def with_columns(result, **columns):
 
 
 def test_a_status_names_the_tolerances_that_are_missed_and_by_how_much():
-    """Of numerical, sampling (at 95 %, by Student's t) and model-form error; the box has the colour of a warning then."""
+    """Of numerical, sampling (at 95 %, by Student's t) and model-form error; the box has the colour of a warning
+    then."""
     plain = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
     kind = re.compile(r'<p class="status (\w*)" role="status">(.*?)</p>')
     assert kind.findall(study_report.study_page(plain, {}, []).decode()) == [

@@ -33,7 +33,8 @@ def same(one, other):
 
 
 def test_lift_off_has_the_direction_of_the_curve(model, curve):
-    """Forwards and backwards f is the same but for the finite patch. These speeds are too far apart for lift-off itself."""
+    """Forwards and backwards f is the same but for the finite patch. These speeds are too far apart for lift-off
+    itself."""
     back = lubfric.stribeck(model, -SPEEDS)
     (low, high) = curve.lift_off_range
     assert back.lift_off_range == pytest.approx((-high, -low)) and high / low == pytest.approx(10**0.5)

@@ -85,8 +85,9 @@ def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
 
 
 def test_f_without_rolling_is_the_mean_of_the_forces_on_both_surfaces():
-    """Their powers add up to the power loss, P = F_1 u_1 + F_2 u_2, and their sum is the rolling resistance R: the rest, P - R U, is
-    their mean difference times the sliding speed. The pressure on flanks of moving roughness, which opposes sliding, is in it."""
+    """Their powers add up to the power loss, P = F_1 u_1 + F_2 u_2, and their sum is the rolling resistance R: the
+    rest, P - R U, is their mean difference times the sliding speed. The pressure on flanks of moving roughness, which
+    opposes sliding, is in it."""
     curve = lubfric.traction(SCENE, [-0.4, 0.4], speed=0.1)
     resistance = curve["rolling_resistance"]
     sliding = np.array([-0.04, 0.04])

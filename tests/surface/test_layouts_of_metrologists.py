@@ -1,4 +1,5 @@
-"""Ten layouts as metrologists export them, written here: each is read as it is, or refused; nothing wrongly in silence."""
+"""Ten layouts as metrologists export them, written here: each is read as it is, or refused; nothing wrongly in
+silence."""
 
 import numpy as np
 import pytest

@@ -92,7 +92,8 @@ HEADERS = {  # name: (lines above 4 lines of 6 heights, whether x runs along a l
 
 @pytest.mark.parametrize("name", HEADERS)
 def test_sizes_in_headings_decide_the_direction_of_x(tmp_path, name):
-    """x runs along a line of the file, as the counts do, or the lengths, by the steps of 0.8 um that the caller gives."""
+    """x runs along a line of the file, as the counts do, or the lengths, by the steps of 0.8 um that the caller
+    gives."""
     heading, is_along = HEADERS[name]
     heights = np.sin(np.arange(24.0)).reshape(4, 6).round(4)
     rows = "\n".join(";".join(map(str, row)) for row in heights)
@@ -233,7 +234,8 @@ def test_a_profile_is_described_in_the_units_that_are_stated(tmp_path):
 
 @pytest.mark.parametrize("head", ["x [mm];z [um]\n", "# Z-unit: um\n"])
 def test_a_unit_that_contradicts_the_heights_of_a_profile_is_refused(tmp_path, head):
-    """Its statistics, which a user may type in, would be wrong by the ratio of the two units; so would a contradicted step."""
+    """Its statistics, which a user may type in, would be wrong by the ratio of the two units; so would a contradicted
+    step."""
     x = np.arange(200) * 1e-6
     path = tmp_path / "a.txt"
     rows = "".join(f"{1e3 * a:.6g};{1e6 * b:.6g}\n" for a, b in zip(x, 1e-7 * np.sin(x / 5e-6)))
@@ -252,7 +254,8 @@ def test_a_unit_that_contradicts_the_heights_of_a_profile_is_refused(tmp_path, h
 
 @pytest.mark.parametrize("scale, columns", [(1e3, 2), (1e6, 2), (1.0, 1)])  # of the first column, from m
 def test_a_stated_spacing_sets_the_correlation_length_of_a_profile(scale, columns, tmp_path):
-    """Whatever the unit of its first column, which heights in another unit do not have; one that fits in no unit is named."""
+    """Whatever the unit of its first column, which heights in another unit do not have; one that fits in no unit is
+    named."""
     x = np.arange(200) * 1e-6
     rows = np.column_stack([scale * x, 0.1 * np.sin(x / 5e-6)])[:, -columns:]
     path = tmp_path / "a.txt"

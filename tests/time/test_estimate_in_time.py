@@ -65,8 +65,8 @@ def test_a_run_takes_about_the_estimated_steps(plan):
 
 
 def test_a_starved_contact_needs_the_strips_of_its_smallest_film():
-    """A starved piston ring: where its film flows it is 3.3 Sq thick, at its thinnest 2.7, where summits still meet it. The
-    run takes all 61 strips there are, at the fastest of its speeds."""
+    """A starved piston ring: where its film flows it is 3.3 Sq thick, at its thinnest 2.7, where summits still meet it.
+    The run takes all 61 strips there are, at the fastest of its speeds."""
     ring = lubfric.load_scene("paper").with_(
         bodies={"radius": 0.03, "width": 0.27, "load": 180.0, "e_prime": 155e9},
         lubricant={"viscosity": 4.5e-3, "pressure_viscosity_coefficient": 1.4e-8, "inlet_length": 3e-4},
@@ -80,7 +80,8 @@ def test_a_starved_contact_needs_the_strips_of_its_smallest_film():
 
 
 def test_a_run_by_load_sharing_is_estimated_with_the_strips_of_load_sharing():
-    """By "auto", whose last model takes one strip of moving roughness, a sixth of the cells of the run was estimated."""
+    """By "auto", whose last model takes one strip of moving roughness, a sixth of the cells of the run was
+    estimated."""
     plan = Transient(0.01, outputs=4, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=100.0))
     by_auto = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.03, "slide_roll_ratio": 0.1})
     (run, alone) = (estimated(plan, by_auto.with_(numerics={"model": model})) for model in ("auto", "paper"))

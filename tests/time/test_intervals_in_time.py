@@ -153,7 +153,8 @@ def test_the_thinnest_film_of_a_run_is_stated_with_its_time_and_its_part_of_the_
 
 
 def test_friction_gives_no_power():
-    """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at 0."""
+    """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at
+    0."""
     sliding = Harmonic(amplitude=0.2, frequency=500.0, phase=3.3)
     scene = paper_scene(contact=SMALL, numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.1})
     run = lubfric.transient(scene.with_(transient=Transient(5e-4, outputs=4, sliding=sliding)))
@@ -208,7 +209,8 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
 
 
 def test_friction_drives_no_sliding_but_by_its_rolling_part(held):
-    """A model-form error of 300 %: the lower end is 0, or below it by a rolling part that points the way of the sliding."""
+    """A model-form error of 300 %: the lower end is 0, or below it by a rolling part that points the way of the
+    sliding."""
     count = 3
     columns = dict.fromkeys(held.columns, np.zeros(count)) | {
         "time": np.arange(float(count)),

@@ -1,4 +1,5 @@
-"""A run whose contact grows: the patch has to contain the longest contact of the run, which is known before any solve."""
+"""A run whose contact grows: the patch has to contain the longest contact of the run, which is known before any
+solve."""
 
 import re
 

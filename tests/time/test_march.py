@@ -97,7 +97,8 @@ def test_a_step_that_fails_is_tried_shorter_and_then_reported():
 
 
 def test_an_end_of_the_film_that_creeps_is_sent_ahead_and_one_in_excess_is_not():
-    """Each step fills one more node on the left: the fourth fills two more, the next four. Emptied nodes end that; the right end stays."""
+    """Each step fills one more node on the left: the fourth fills two more, the next four. Emptied nodes end that; the
+    right end stays."""
     dry = np.zeros(100, bool)
     dry[20] = True
     ends = CreepingEnds()

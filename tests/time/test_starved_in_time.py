@@ -1,4 +1,5 @@
-"""A starved inlet in runs in time: the steady film, a jump of the speed, motion backwards, and the friction of a scene."""
+"""A starved inlet in runs in time: the steady film, a jump of the speed, motion backwards, and the friction of a
+scene."""
 
 from functools import cache
 
@@ -86,8 +87,8 @@ FULL_FILM = SCENE.with_(
 
 @pytest.mark.parametrize("inlet", [1e-5, None])
 def test_friction_of_a_smooth_course_is_smooth(inlet):
-    """Speed, load and film follow a sine. So does f, wherever the film ruptures on the grid: its third differences, four
-    times the size of what zigzags from output to output, stay within the stated error of the sum of the shear."""
+    """Speed, load and film follow a sine. So does f, wherever the film ruptures on the grid: its third differences,
+    four times the size of what zigzags from output to output, stay within the stated error of the sum of the shear."""
     run = lubfric.transient(FULL_FILM.with_(lubricant={"inlet_length": inlet}))
     assert not run.contact_load.any()
     f = run.coefficient
@@ -131,7 +132,8 @@ def test_what_a_run_does_not_take():
 
 @pytest.mark.parametrize("speed", [1.4, pytest.param(4.2, marks=pytest.mark.slow)])
 def test_the_deterministic_answer_of_a_starved_ring_lies_in_the_interval(speed):
-    """Thick films (lambda ratios 5 and 10 of the solved film), which the deterministic model solves on the roughness."""
+    """Thick films (lambda ratios 5 and 10 of the solved film), which the deterministic model solves on the
+    roughness."""
     ring = lubfric.load_scene("paper").with_(
         bodies={"radius": 0.05, "width": 0.25, "load": 94.0},
         lubricant={"viscosity": 0.0075, "inlet_length": 7.5e-4, "eyring_stress": 5e6},

@@ -65,7 +65,8 @@ def test_a_slow_ramp_follows_the_stribeck_curve():
 
 @pytest.mark.parametrize("geometry", ["cylinder", "flat"])
 def test_a_contact_forgets_the_load_and_the_radius_that_it_had(geometry):
-    """After half the load and a third of the radius f is the steady one there: the area A is the Hertz strip of the moment."""
+    """After half the load and a third of the radius f is the steady one there: the area A is the Hertz strip of the
+    moment."""
     scene = SCENE.with_(contact={"geometry": geometry})
     (load, radius) = (scene.bodies.load, scene.bodies.radius)
     plan = Transient(

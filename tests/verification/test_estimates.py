@@ -109,7 +109,8 @@ def test_moving_roughness_on_few_cells_is_estimated_within_three_of_what_it_took
 
 @pytest.mark.parametrize("length", [4e-6, 8e-6])
 def test_a_light_contact_on_an_exponential_surface_is_estimated_without_shorter_cells(length):
-    """Between bodies that flatten by a twentieth of Sq no shorter cells follow: Python adds to the counted work of .1 s."""
+    """Between bodies that flatten by a twentieth of Sq no shorter cells follow: Python adds to the counted work of .1
+    s."""
     scene = PAPER.with_(surface={"acf": "exponential", "correlation_length": length}, numerics={"accept": True})
     with limited_work(math.inf) as meter:
         lubfric.friction(scene, 0.005)
@@ -126,7 +127,8 @@ def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact(
 
 
 def test_the_ends_of_input_ranges_are_estimated_as_films_that_are_solved():
-    """One film without ranges, and with two of them also four ends, what they begin with, and what they are compared with."""
+    """One film without ranges, and with two of them also four ends, what they begin with, and what they are compared
+    with."""
     scenes = [PAPER, PAPER.with_(lubricant={"eyring_stress": "mineral", "limiting_stress_coefficient": "mineral"})]
     works = []
     for scene in scenes:
@@ -176,7 +178,8 @@ def test_a_heavy_roller_at_rest_is_estimated_within_two(speed):
 
 
 def test_seconds_on_a_slower_core_are_those_on_the_stated_one(monkeypatch):
-    """A core that takes three times as long before the run and five times after it: a quarter of its seconds by the clock."""
+    """A core that takes three times as long before the run and five times after it: a quarter of its seconds by the
+    clock."""
     pairs = iter([3 * PAIR, 5 * PAIR])
     moments = iter([100.0, 108.0])
     monkeypatch.setattr("verification.pace._pair", lambda: next(pairs))
@@ -184,7 +187,8 @@ def test_seconds_on_a_slower_core_are_those_on_the_stated_one(monkeypatch):
 
 
 def test_passes_until_nothing_yields_are_estimated_by_the_hardness():
-    """Soft asperities take more passes than hard ones: the ratio of both estimates is within two of that of the counted work."""
+    """Soft asperities take more passes than hard ones: the ratio of both estimates is within two of that of the counted
+    work."""
     estimates, work = [], []
     for hardness in (6e8, 2e9):
         scene = PATCH.with_(bodies={"hardness": hardness}, contact={"shape": (48, 48)})
@@ -196,7 +200,8 @@ def test_passes_until_nothing_yields_are_estimated_by_the_hardness():
 
 
 def test_strips_on_long_cells_are_as_many_as_their_scatter_needs():
-    """Four strips under a film of 2.4 Sq, and two under one of 0.85 Sq: both are estimated within two of the counted work."""
+    """Four strips under a film of 2.4 Sq, and two under one of 0.85 Sq: both are estimated within two of the counted
+    work."""
     for seed in (305, 321):
         job = drawn(seed, 0)
         with limited_work(math.inf) as meter:

@@ -16,7 +16,8 @@ from verification.check import Check, Table
 
 @pytest.mark.parametrize("inside, passes", [(19, True), (15, False)])
 def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, passes):
-    """The reference is .05 times .9, the limit of .925 on cells half as long. Answers .045 and .053 have a half-width of 5 %, 30 degrees of freedom."""
+    """The reference is .05 times .9, the limit of .925 on cells half as long. Answers .045 and .053 have a half-width
+    of 5 %, 30 degrees of freedom."""
     for seed in range(2):
         row = {"contact": "gear flank", "kind": "strip", "seed": seed, "f": 0.05, "error": 1e-6, "failure": ""}
         table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
@@ -67,8 +68,8 @@ def test_the_limit_is_that_of_second_order(tmp_path):
 
 
 def test_the_stated_error_holds_that_of_the_cells():
-    """On strips of random contacts and of the contacts with names: as often as an error at 95 % should, and it is not larger
-    than it has to be: the errors have a root mean square above a quarter of it."""
+    """On strips of random contacts and of the contacts with names: as often as an error at 95 % should, and it is not
+    larger than it has to be: the errors have a root mean square above a quarter of it."""
     strips = [strip for strip in errors(TABLE) if strip["axis"] == "xy"]
     assert len({strip["contact"] for strip in strips}) >= 25
     left = np.array([strip["left"] / strip["stated"] for strip in strips])

@@ -1,4 +1,5 @@
-"""The law of the work of a step in time of moving roughness: its constants are the fit of its campaign, whose rows can be solved again."""
+"""The law of the work of a step in time of moving roughness: its constants are the fit of its campaign, whose rows can
+be solved again."""
 
 import numpy as np
 import pytest

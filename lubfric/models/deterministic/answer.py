@@ -87,14 +87,14 @@ TOO_MANY_CELLS = (
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
-# Where a local peak of the film pressure is, by whether asperities carry load. The picture of the contact is of another solve, with
-# the contacts.
+# Where a local peak of the film pressure is, by whether asperities carry load. The picture of the contact is of another
+# solve, with the contacts.
 FILM_OF_STRIPS = {
     True: "of the film between asperity contacts, on the cells of the solve of f",
     False: "of the film over the roughness, on the cells of the solve of f",
 }
-# What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of the
-# asperity load.
+# What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of
+# the asperity load.
 RUBS = {
     True: "gaps below the boundary film, and film at its limiting stress",
     False: "gaps below the boundary film",
@@ -235,8 +235,8 @@ def fields_of(strip: StripSolution, where: str) -> ContactFields:
 
 
 def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> ContactFields:
-    """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself; of a patch, those of its
-    ``finest`` solution, or of all of it on shorter cells, from that solution on."""
+    """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself; of a patch, those
+    of its ``finest`` solution, or of all of it on shorter cells, from that solution on."""
     sample = prepared.sample
     scene = prepared.scene
     if sample.refines_in_place:
@@ -254,9 +254,9 @@ def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> C
 
 
 def _change_by_hardness(strip: StripSolution, scene: Scene, end: Scene) -> float:
-    """Return the largest relative change of f by the hardness of ``end``: `REDISTRIBUTED` times that where the load that it
-    moves on ``strip`` rubs as the mean does instead of with f_b, or the other way round; in pure rolling, where it changes
-    the rolling resistance in proportion. 0: no cell reaches it."""
+    """Return the largest relative change of f by the hardness of ``end``: `REDISTRIBUTED` times that where the load
+    that it moves on ``strip`` rubs as the mean does instead of with f_b, or the other way round; in pure rolling, where
+    it changes the rolling resistance in proportion. 0: no cell reaches it."""
     hardness, other = (value_of(each, HARDNESS_KEY) for each in (scene, end))
     moved = strip.share_moved(hardness, other)
     if moved == 0 or scene.motion.slide_roll_ratio == 0:
@@ -268,13 +268,13 @@ def _change_by_hardness(strip: StripSolution, scene: Scene, end: Scene) -> float
 def _change_without_solve(
     strip: StripSolution, scene: Scene, speed: float, name: str, number: int, end: Scene
 ) -> float | None:
-    """Return the relative change of f at end ``number`` of the range of the input of this ``name``, where it needs no solve;
-    None where it needs one. ``end``: the scene there.
+    """Return the relative change of f at end ``number`` of the range of the input of this ``name``, where it needs no
+    solve; None where it needs one. ``end``: the scene there.
 
-    A hardness that moves little of the load changes f by no more than what that rubs, here down at the lower end and up at
-    the upper one. Where roughness moves, an oil's own stress (`OF_SHEAR`) changes the shear of the moments that are solved,
-    if its flow at rest changes f by no more than `FLOW_MATTERS`. Continuations with the other oil gave changes within 7 %
-    of these.
+    A hardness that moves little of the load changes f by no more than what that rubs, here down at the lower end and up
+    at the upper one. Where roughness moves, an oil's own stress (`OF_SHEAR`) changes the shear of the moments that are
+    solved, if its flow at rest changes f by no more than `FLOW_MATTERS`. Continuations with the other oil gave changes
+    within 7 % of these.
     """
     if name == HARDNESS_KEY:
         most = _change_by_hardness(strip, scene, end)
@@ -300,8 +300,8 @@ def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInpu
 
 
 def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene) -> float:
-    """Return f at ``speed`` [m/s] of a ``scene`` that differs from the prepared one in inputs only, by the deterministic
-    model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
+    """Return f at ``speed`` [m/s] of a ``scene`` that differs from the prepared one in inputs only, by the
+    deterministic model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
 
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
     cells twice as long.
@@ -316,7 +316,8 @@ def _with_heat(scene: Scene, result: DeterministicResult) -> float:
 
 
 def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:
-    """Return what was modelled at a point, in words: its ``levels``, the division of the load, the ``heat`` and remarks."""
+    """Return what was modelled at a point, in words: its ``levels``, the division of the load, the ``heat`` and
+    remarks."""
     by_film = BY_FILM.format(*(100 * change for change in levels.by_film))
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
@@ -344,7 +345,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
 
 
 def _end_of_cells_in_words(sample: Sample, end: EndOfCells) -> list[str]:
-    """Return that shorter cells of ``sample`` were not solved, and what reduces the error; [] where they are not needed."""
+    """Return that shorter cells of ``sample`` were not solved, and what reduces the error; [] where they are not
+    needed."""
     if end is EndOfCells.NOT_NEEDED:
         return []
     if end is EndOfCells.TOO_MANY:
@@ -376,7 +378,8 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
 
 
 def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
-    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, and at what cost, as text."""
+    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, and at what cost, as
+    text."""
     scene = prepared.scene
     sample = prepared.sample
     sample_coarsening = sample_coarsening_of(scene, sample)
@@ -399,7 +402,8 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
 
 
 def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
-    """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no tolerance does."""
+    """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no
+    tolerance does."""
     if has_moving_roughness(prepared.scene):
         return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
     if levels.end_of_cells is EndOfCells.TOO_MANY:
@@ -492,8 +496,9 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
 
 
 def violations_by_correction(by_summits: float, of_sample: float, f: float) -> Iterator[Violation]:
-    """Yield the note that ``f`` is corrected ``by_summits`` (relative to f) by more than `LARGE_CORRECTION`, or than the error
-    ``of_sample`` at 95 %, if that is `SMALL_CORRECTION` at least. Where f is near 0, a correction within that error has none."""
+    """Yield the note that ``f`` is corrected ``by_summits`` (relative to f) by more than `LARGE_CORRECTION`, or than
+    the error ``of_sample`` at 95 %, if that is `SMALL_CORRECTION` at least. Where f is near 0, a correction within that
+    error has none."""
     if is_near_zero(f, of_sample) and abs(by_summits) <= of_sample:
         return
     limit = min(LARGE_CORRECTION, max(of_sample, SMALL_CORRECTION)) if math.isfinite(of_sample) else LARGE_CORRECTION

@@ -1,4 +1,5 @@
-"""The effect of the cells on f where roughness moves: expected from measurements, because no shorter cells are solved."""
+"""The effect of the cells on f where roughness moves: expected from measurements, because no shorter cells are
+solved."""
 
 from __future__ import annotations
 
@@ -13,11 +14,11 @@ from .result import DeterministicResult
 from .rough_bodies import map_of_strip
 from .strip import StripSolution
 
-# The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
-# narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
-# `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant into the narrow
-# gaps, by a part of their height that falls with the square of the cells: f changes as by a boundary film that is
-# thinner. So the effect is in proportion to d ln f/d ln(boundary film).
+# The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f
+# of narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are
+# judged by `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant
+# into the narrow gaps, by a part of their height that falls with the square of the cells: f changes as by a boundary
+# film that is thinner. So the effect is in proportion to d ln f/d ln(boundary film).
 
 # Part by which the narrow gaps are too small, over (cell/correlation length)² along x and along y [-]. Fitted to
 # `verification.campaigns.moving_cells`.
@@ -37,11 +38,11 @@ ALONG_X = (0.3, 0.08)
 # nine contacts with names differ by 0.02 to 0.4 %.
 ALONG_Y = 0.016
 
-# Relative error of f, at 95 %, because the pressure has few cells, over (cell along x/half-width) to the power of
-# the order of the steps [-]: of second order, and along the lubricant of third. Between 6 and 12 cells in the
-# half-width f of a separated contact changes by 3.2 %, between 7 and 14 by 2.7 %. The half-width is that of the smooth film where
-# it is wider than the Hertz strip: of the scene "paper", Gaussian, at a slide-roll ratio of .1, f changes by .4 % and .7 % from 25 and
-# 14 cells in that of the film (2.5 in the Hertz strip) to twice as many, at .1 and .03 m/s.
+# Relative error of f, at 95 %, because the pressure has few cells, over (cell along x/half-width) to the power of the
+# order of the steps [-]: of second order, and along the lubricant of third. Between 6 and 12 cells in the half-width f
+# of a separated contact changes by 3.2 %, between 7 and 14 by 2.7 %. The half-width is that of the smooth film where it
+# is wider than the Hertz strip: of the scene "paper", Gaussian, at a slide-roll ratio of .1, f changes by .4 % and .7 %
+# from 25 and 14 cells in that of the film (2.5 in the Hertz strip) to twice as many, at .1 and .03 m/s.
 IN_HALF_WIDTH = (3.0, 14.0)
 
 # Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to
@@ -58,9 +59,10 @@ BY_LONGER = 1 / 3
 # boundary friction as the only sliding part.
 STEEPEST = 1.0
 
-# Factor on the part of the load that the film carries [-], by which the error by its cells is less where that is small. One map of a
-# needle roller at .05, .3 and 1 m/s, whose film carries .07, .57 and 2.6 % of the load: f changes by .002, .07 and .32 % on cells half
-# as long along x. With this factor the error is .2, 1.6 and 7.5 %, without it 9.3 %. A choice: a film may also change its load more.
+# Factor on the part of the load that the film carries [-], by which the error by its cells is less where that is small.
+# One map of a needle roller at .05, .3 and 1 m/s, whose film carries .07, .57 and 2.6 % of the load: f changes by .002,
+# .07 and .32 % on cells half as long along x. With this factor the error is .2, 1.6 and 7.5 %, without it 9.3 %. A
+# choice: a film may also change its load more.
 OF_FILM_LOAD = 30.0
 
 # Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A
@@ -72,16 +74,13 @@ HALVED_ERROR = 0.8
 class CellsInMotion:
     """What is known of the cells on which roughness moves, and their expected effect on f.
 
-    Attributes
-    ----------
-    film_ratio : sliding part of f with twice the boundary film over that with half of it
-    coarse_x, coarse_y : length of the cells over the correlation length
-    coarse_b : length of the cells along x over the half-width of the Hertz strip, or of the smooth film where that is wider
-    by_longer : relative change of f from cells twice as long along y
-    follows_lubricant : whether steps were of third order along the lubricant
-    is_smooth : whether the heights are smooth over the cells
-    sliding_share : sliding part of f over f; the rest is the gradient of the pressure, which the film does not change
-    film_share : part of the load on film that does not rub with f_b; 1: not known
+    Attributes ---------- film_ratio : sliding part of f with twice the boundary film over that with half of it
+    coarse_x, coarse_y : length of the cells over the correlation length coarse_b : length of the cells along x over the
+    half-width of the Hertz strip, or of the smooth film where that is wider by_longer : relative change of f from cells
+    twice as long along y follows_lubricant : whether steps were of third order along the lubricant is_smooth : whether
+    the heights are smooth over the cells sliding_share : sliding part of f over f; the rest is the gradient of the
+    pressure, which the film does not change film_share : part of the load on film that does not rub with f_b; 1: not
+    known
     """
 
     film_ratio: float
@@ -129,8 +128,8 @@ class CellsInMotion:
 
     @property
     def of_narrow_gaps(self) -> float:
-        """The relative change of the sliding part of f by a boundary film that is thicker by as much as the narrow gaps are
-        too small."""
+        """The relative change of the sliding part of f by a boundary film that is thicker by as much as the narrow gaps
+        are too small."""
         (along_x, along_y) = NARROW_GAPS
         return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.film_exponent
 
@@ -146,8 +145,8 @@ class CellsInMotion:
 
     @property
     def error(self) -> float:
-        """The relative error of f after this change, at 95 %. Where nearly all of the load rubs with f_b, the sliding part of f
-        depends little on the film, whose cells these are (`OF_FILM_LOAD`)."""
+        """The relative error of f after this change, at 95 %. Where nearly all of the load rubs with f_b, the sliding
+        part of f depends little on the film, whose cells these are (`OF_FILM_LOAD`)."""
         of_film = 1.0 - self.sliding_share + self.sliding_share * min(1.0, OF_FILM_LOAD * self.film_share)
         of_roughness = ALONG_X[self.follows_lubricant] * self.coarse_x**2 + ALONG_Y * self.coarse_y**2
         return math.hypot(
@@ -158,8 +157,8 @@ class CellsInMotion:
         )
 
     def shorter_ones_pay(self, tolerance: float) -> bool:
-        """Return whether the error is above ``tolerance``, and on cells half as long along y smaller by the part that pays
-        (`HALVED_ERROR`)."""
+        """Return whether the error is above ``tolerance``, and on cells half as long along y smaller by the part that
+        pays (`HALVED_ERROR`)."""
         halved = replace(self, coarse_y=self.coarse_y / 2, by_longer=self.by_longer / 4)
         reduces = halved.error <= HALVED_ERROR * self.error
         return self.is_smooth and self.error > tolerance and reduces  # else shorter cells show new summits, along x too
@@ -196,15 +195,15 @@ def cells_of_strips(prepared: Prepared, strips: Sequence[StripSolution], by_long
 
 
 def film_exponent_of(film_ratio: float) -> float:
-    """Return the change of ln of the sliding part of f with ln of the boundary film, between ± `STEEPEST`, where that part
-    changes by the factor ``film_ratio`` from half of the film to twice the film; 0 where it changes its sign."""
+    """Return the change of ln of the sliding part of f with ln of the boundary film, between ± `STEEPEST`, where that
+    part changes by the factor ``film_ratio`` from half of the film to twice the film; 0 where it changes its sign."""
     slope = math.log(film_ratio) / math.log(4.0) if film_ratio > 0 else 0.0
     return min(max(slope, -STEEPEST), STEEPEST)
 
 
 def film_ratio_of(results: Sequence[DeterministicResult]) -> float:
-    """Return the sliding part of f with twice the boundary film over that with half of it, of these ``results`` together;
-    1 where f does not slide."""
+    """Return the sliding part of f with twice the boundary film over that with half of it, of these ``results``
+    together; 1 where f does not slide."""
     half = sum(result.sliding_at_half_film for result in results)
     twice = sum(result.sliding_at_twice_film for result in results)
     return twice / half if half else 1.0
@@ -218,9 +217,9 @@ def sliding_share_of(results: Sequence[DeterministicResult]) -> float:
 
 
 def changed_as_expected(numbers: dict[str, float], change: float, rolling: float) -> dict[str, float]:
-    """Return ``numbers`` of a point with the sliding part of f, its forces and the asperity load changed by this relative
-    ``change``; where the load does not suffice for that, the film's force has all of it. ``rolling`` [N]: the part of f on the
-    strips that does not slide."""
+    """Return ``numbers`` of a point with the sliding part of f, its forces and the asperity load changed by this
+    relative ``change``; where the load does not suffice for that, the film's force has all of it. ``rolling`` [N]: the
+    part of f on the strips that does not slide."""
     if not change:
         return numbers
     load = numbers["film_load"] + numbers["contact_load"]

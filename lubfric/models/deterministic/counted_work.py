@@ -11,8 +11,8 @@ LU_FACTORISATION = 1.35e-7
 # Seconds a cell of one iteration of GMRES; the same core. Measured as `NEWTON_STEP`.
 GMRES_ITERATION = 1.9e-7
 
-# Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"
-# leaves a point whose first strip takes more to the quick model (docs/models.md).
+# Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen;
+# "auto" leaves a point whose first strip takes more to the quick model (docs/models.md).
 MOST_WORK_OF_POINT = 120.0
 
 

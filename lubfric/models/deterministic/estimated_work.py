@@ -44,10 +44,10 @@ from .strip_on_two_grids import (
 # Part of the points whose map is shorter than a piece that solve it as a whole on cells a quarter as long [-].
 QUARTER_OF_SHORT_STRIP = 0.5
 
-# Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz half-width,
-# where it is largest; the exponents of the cell over these; the logarithm of the film of the smooth contact over Sq at which it is
-# largest, and its fall with the square of the distance from there; the standard deviation of its logarithm. Fitted to 212 changes
-# of random patches of `python -m verification.campaigns.estimates`.
+# Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz
+# half-width, where it is largest; the exponents of the cell over these; the logarithm of the film of the smooth contact
+# over Sq at which it is largest, and its fall with the square of the distance from there; the standard deviation of its
+# logarithm. Fitted to 212 changes of random patches of `python -m verification.campaigns.estimates`.
 CHANGE_OF_PATCH = 0.33
 CHANGE_BY_LENGTH = 0.67
 CHANGE_BY_HALF_WIDTH = 0.39
@@ -55,15 +55,17 @@ LARGEST_CHANGE = -0.42
 CHANGE_BY_FILM = 0.53
 CHANGE_SPREAD = 1.4
 
-# The same at least where the film of the smooth contact is above Sq, over the square of the cell along x over the Hertz half-width [-]:
-# 56, 14, 3.5, .9 % at .75, .38, .19, .09; on a measured map f changed by 10 to 21, 3 to 45, 4 to 50, .6 to 1.4 % there.
+# The same at least where the film of the smooth contact is above Sq, over the square of the cell along x over the Hertz
+# half-width [-]: 56, 14, 3.5, .9 % at .75, .38, .19, .09; on a measured map f changed by 10 to 21, 3 to 45, 4 to 50, .6
+# to 1.4 % there.
 CHANGE_OF_FILM = 1.0
 
-# Factor on that change where the heights are not smooth over a cell [-]: on those of the patches whose autocorrelation is exponential.
+# Factor on that change where the heights are not smooth over a cell [-]: on those of the patches whose autocorrelation
+# is exponential.
 CHANGE_IF_NOT_SMOOTH = 1.5
 
-# Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two. A choice
-# between these.
+# Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two.
+# A choice between these.
 ERROR_OVER_CHANGE = 1.5
 
 # Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more. It
@@ -98,45 +100,48 @@ LAST_LEVEL_OF_ONE_STRIP = 0.2
 # The same where more strips are solved [-].
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
-# Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
+# Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of
+# ``verification.campaigns.estimates``.
 AT_REST = 0.64
 
-# Processor time [s] of a patch at rest whose cells are so few that their work takes none: .04 to .08 in ten random patches of the
-# same.
+# Processor time [s] of a patch at rest whose cells are so few that their work takes none: .04 to .08 in ten random
+# patches of the same.
 SECONDS_OF_PATCH = 0.05
 
 # Processor time of roughness at rest on long cells over its counted work [-]: .5 to 1.1 in 20 random points of the
 # same, most of all where the arrays are small.
 AT_REST_ON_LONG_CELLS = 0.9
 
-# What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time of ten runs of
-# ``verification.campaigns.estimates``. A way by the sampling error that is expected of the strip was tried: 55 % of the traction
-# curves were within a factor of 2, for 82 % by the same way for all.
+# What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time of ten runs
+# of ``verification.campaigns.estimates``. A way by the sampling error that is expected of the strip was tried: 55 % of
+# the traction curves were within a factor of 2, for 82 % by the same way for all.
 COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
 
-# Processor time of moving roughness on many cells over its counted work [-]. Fitted with `SMALL_ARRAYS` to 33 strips of 22 runs of
-# verification.campaigns.estimates, by the deterministic and the quick model, on 280 to 14,400 cells: rms .15 of the logarithm, 1.5 at most.
+# Processor time of moving roughness on many cells over its counted work [-]. Fitted with `SMALL_ARRAYS` to 33 strips of
+# 22 runs of verification.campaigns.estimates, by the deterministic and the quick model, on 280 to 14,400 cells: rms .15
+# of the logarithm, 1.5 at most.
 IN_MOTION = 0.57
 
-# Cells whose work in a Newton step takes as long as the calls of that step, which the counted work does not have [-]. Fitted.
+# Cells whose work in a Newton step takes as long as the calls of that step, which the counted work does not have [-].
+# Fitted.
 SMALL_ARRAYS = 2250.0
 
-# Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is
-# within `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of
-# verification.campaigns.calibration, 0 and 0.6. A fifth of them have more than 0.4, with which a strip may be solved again on
-# cells half as long along y.
+# Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq
+# is within `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of
+# verification.campaigns.calibration, 0 and 0.6. A fifth of them have more than 0.4, with which a strip may be solved
+# again on cells half as long along y.
 EXPECTED_STEEPNESS = 0.6
 MIXED_FILMS = (0.3, 1.7)
 
-# Factor on the work where that may happen (`shorter_ones_pay`) [-]: between 1, where it does not, and 1 plus `HALVED_WORK`, with
-# the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
+# Factor on the work where that may happen (`shorter_ones_pay`) [-]: between 1, where it does not, and 1 plus
+# `HALVED_WORK`, with the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
 MAY_BE_HALVED = 1.2
 
 # Scatter of the difference between the models over that of f [-].
 UNLIKE = 0.65
 
-# Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_needed_strips`) of one
-# area of the correlation lengths over that of the map [-]. Fitted with its exponent to 51 contacts of
+# Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_needed_strips`)
+# of one area of the correlation lengths over that of the map [-]. Fitted with its exponent to 51 contacts of
 # verification.campaigns.moving_coverage and verification.campaigns.estimates.
 SCATTER_IN_MOTION = 0.45
 
@@ -221,10 +226,11 @@ def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float
 
 
 def _needed_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
-    """Return how many strips of moving roughness of ``sq`` [m] the sampling error at ``speed`` [m/s] needs, if all of a map passes; of
-    less than one, a part of it.
+    """Return how many strips of moving roughness of ``sq`` [m] the sampling error at ``speed`` [m/s] needs, if all of a
+    map passes; of less than one, a part of it.
 
-    f scatters by the asperity load ratio s, as of single contacts, sqrt(s (1 - s)), times the `ExpectedFriction.contrast`.
+    f scatters by the asperity load ratio s, as of single contacts, sqrt(s (1 - s)), times the
+    `ExpectedFriction.contrast`.
     """
     expected = expected_friction(scene, sq, speed)
     scatter = math.sqrt(expected.share * (1.0 - expected.share)) * expected.contrast
@@ -276,12 +282,13 @@ def _work_at_rest(
 def _work_in_levels(
     scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: float, is_smooth: bool
 ) -> float:
-    """Return the counted work [s] of a patch at rest, or of ``count`` strips no longer than `LENGTH_OF_LAST_PIECE`, on shorter and
-    shorter cells, and of so many ``ends`` of input ranges: the geometric mean over where the shorter cells may end.
+    """Return the counted work [s] of a patch at rest, or of ``count`` strips no longer than `LENGTH_OF_LAST_PIECE`, on
+    shorter and shorter cells, and of so many ``ends`` of input ranges: the geometric mean over where the shorter cells
+    may end.
 
-    A patch, or one of the strips, is solved on them until the estimated error is within the tolerance (`_log_change_of_patch`), or
-    they take too much work; the ends on the last ones, or on the first of strips. ``is_smooth``: whether the heights are smooth over
-    a cell.
+    A patch, or one of the strips, is solved on them until the estimated error is within the tolerance
+    (`_log_change_of_patch`), or they take too much work; the ends on the last ones, or on the first of strips.
+    ``is_smooth``: whether the heights are smooth over a cell.
     """
     numerics = scene.numerics
     is_patch = sample.refines_in_place
@@ -322,15 +329,16 @@ def _work_in_levels(
 
 
 def _part_above(change: float, log_expected: float) -> float:
-    """Return the probability that a change of f is above ``change`` [-], if ``log_expected`` is the mean of its logarithm."""
+    """Return the probability that a change of f is above ``change`` [-], if ``log_expected`` is the mean of its
+    logarithm."""
     return 0.5 * math.erfc((math.log(change) - log_expected) / (math.sqrt(2.0) * CHANGE_SPREAD))
 
 
 def _log_change_of_patch(
     scene: Scene, sample: Sample, *, sq: float, speed: float, coarsening: tuple[int, int]
 ) -> float:
-    """Return the logarithm of the change of f on cells of this length, in native ones, from cells twice as long that is expected of
-    a patch at rest."""
+    """Return the logarithm of the change of f on cells of this length, in native ones, from cells twice as long that is
+    expected of a patch at rest."""
     cell = coarsening[0] * sample.cells.native_spacing[0]
     log_ratio = math.log(scene.line_contact(abs(speed)).moes_film / sq)
     by_film = -CHANGE_BY_FILM * (log_ratio - LARGEST_CHANGE) ** 2
@@ -343,8 +351,8 @@ def _log_change_of_patch(
 
 
 def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int) -> float:
-    """Return the part of points of ``count`` strips that solve the last level: all or none of soft bodies, by the length of the
-    ``cell`` [m] of the level before (`error_of_soft_bodies`)."""
+    """Return the part of points of ``count`` strips that solve the last level: all or none of soft bodies, by the
+    length of the ``cell`` [m] of the level before (`error_of_soft_bodies`)."""
     line = scene.line_contact(abs(speed))
     if are_soft(line, sq):
         is_solved = SOFT_CELL_ERROR * (cell / line.half_width) ** 2 > scene.numerics.tolerance
@@ -355,8 +363,8 @@ def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, c
 def _work_of_short_strip(
     scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: float, is_smooth: bool
 ) -> float:
-    """Return the same as `_work_at_rest` of strips that are shorter than `LENGTH_OF_SHORT_STRIP`: all of one is solved on
-    shorter cells."""
+    """Return the same as `_work_at_rest` of strips that are shorter than `LENGTH_OF_SHORT_STRIP`: all of one is solved
+    on shorter cells."""
     (fx, fy) = sample_coarsening_of(scene, sample)
     (ux, uy) = sample.cells.coarsening
     cx = fx * ux
@@ -376,8 +384,8 @@ def _work_of_short_strip(
 def _solves_on(
     scene: Scene, sample: Sample, coarsening: tuple[int, int], *, sq: float, speed: float
 ) -> tuple[float, float]:
-    """Return the counted work [s] of a strip of roughness of ``sq`` [m] at rest on cells of the length ``coarsening``, in native ones,
-    and of one from a solution nearby."""
+    """Return the counted work [s] of a strip of roughness of ``sq`` [m] at rest on cells of the length ``coarsening``,
+    in native ones, and of one from a solution nearby."""
     (dx, dy) = sample.cells.native_spacing
     columns = sum(reach(scene.line_contact(abs(speed)), sq)) / (coarsening[0] * dx)
     cells = columns * sample.strip_length / (coarsening[1] * dy)
@@ -388,8 +396,8 @@ def _solves_on(
 def _seconds_in_motion(
     scene: Scene, sample: Sample, surface: Surface, speed: float, measured: FirstSteps | None = None
 ) -> float:
-    """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]: expected, or as its first steps are
-    ``measured``."""
+    """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]: expected, or as its first steps
+    are ``measured``."""
     sample_coarsening = sample_coarsening_of(scene, sample)
     work = moving_point_work(
         scene,
@@ -406,7 +414,8 @@ def _seconds_in_motion(
 
 
 def measured_time(prepared: Prepared, speed: float, measured: FirstSteps) -> MeasuredTime:
-    """Return what the ``measured`` first steps of a strip of moving roughness at ``speed`` [m/s] say of its processor time."""
+    """Return what the ``measured`` first steps of a strip of moving roughness at ``speed`` [m/s] say of its processor
+    time."""
     scene = prepared.scene
     sample = prepared.sample
     surface = prepared.surface
@@ -428,8 +437,8 @@ def _is_too_costly(scene: Scene, sample: Sample, surface: Surface, speed: float)
 
 
 def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:
-    """Return whether strips of moving roughness may be solved again at ``speed`` [m/s] on cells half as long along y: where the
-    error by the cells is expected to be above ``numerics.model_tolerance``."""
+    """Return whether strips of moving roughness may be solved again at ``speed`` [m/s] on cells half as long along y:
+    where the error by the cells is expected to be above ``numerics.model_tolerance``."""
     (along, across) = sample_coarsening_of(scene, sample)
     (least, most) = MIXED_FILMS
     if across % 2 or not least <= scene.line_contact(abs(speed)).moes_film / surface.sq <= most:
@@ -447,9 +456,9 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
 
 
 def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float, solved: tuple[int, int]) -> float:
-    """Return the processor time [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
-    solved from the dry contact, or of a patch from cells of length ``solved``, in native ones, where these are too long; ``sq`` [m]:
-    of the surface."""
+    """Return the processor time [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`),
+    which are solved from the dry contact, or of a patch from cells of length ``solved``, in native ones, where these
+    are too long; ``sq`` [m]: of the surface."""
     (dx, dy) = sample.cells.native_spacing
     around = sum(reach(scene.line_contact(abs(speed)), sq))
     if sample.refines_in_place:
@@ -479,8 +488,8 @@ def work_on_long_cells(
     sample_coarsening: tuple[float, float],
     count: float,
 ) -> float:
-    """Return the processor time [s] at ``speed`` [m/s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of
-    ``sample``, to which the ``surface`` belongs, and of the ends of input ranges."""
+    """Return the processor time [s] at ``speed`` [m/s] of ``count`` strips on cells ``sample_coarsening`` times as long
+    as those of ``sample``, to which the ``surface`` belongs, and of the ends of input ranges."""
     sq = surface.sq
     if has_moving_roughness(scene):
         course = COURSE_ON_LONG_CELLS
@@ -516,11 +525,12 @@ def moving_point_work(
     course: ExpectedCourse = EXPECTED_COURSE,
     factor: float | None = 1.0,
 ) -> float:
-    """Estimate the counted work [s] of a point at ``speed`` [m/s] on one strip of moving roughness, ends of input ranges included.
+    """Estimate the counted work [s] of a point at ``speed`` [m/s] on one strip of moving roughness, ends of input
+    ranges included.
 
     The cells are ``sample_coarsening`` times as long as those of ``sample``, to which the ``surface`` belongs.
-    ``factor``: work of a step in time over that of a contact of which nothing else is known, as for the choice of "auto"; None: what
-    is expected of this contact (`StepFacts`).
+    ``factor``: work of a step in time over that of a contact of which nothing else is known, as for the choice of
+    "auto"; None: what is expected of this contact (`StepFacts`).
     """
     cell = sample_coarsening[0] * sample.cells.spacing[0]
     sq = surface.sq
@@ -548,8 +558,8 @@ def moving_point_work(
 def _cells_in_motion(
     scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float]
 ) -> float:
-    """Return the number of cells of a strip whose roughness of ``sq`` [m] moves at ``speed`` [m/s], of a length ``sample_coarsening``
-    in those of ``sample``."""
+    """Return the number of cells of a strip whose roughness of ``sq`` [m] moves at ``speed`` [m/s], of a length
+    ``sample_coarsening`` in those of ``sample``."""
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     line = scene.line_contact(abs(speed))
@@ -568,8 +578,9 @@ def _pace_in_motion(
 
 
 def _solved_ends(scene: Scene, surface: Surface, speed: float) -> float:
-    """Return how many ends of input ranges are expected to be solved: of the hardness those that asperities reach, and where roughness
-    moves, of the shear of the oil those that change the flow. The others follow from the solved point."""
+    """Return how many ends of input ranges are expected to be solved: of the hardness those that asperities reach, and
+    where roughness moves, of the shear of the oil those that change the flow. The others follow from the solved
+    point."""
     is_moving = has_moving_roughness(scene)
     number = 0.0
     for name, *_ in scene.ranges:

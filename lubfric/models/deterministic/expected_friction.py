@@ -1,4 +1,5 @@
-"""What is expected of the friction of moving roughness before it is solved, by closed forms: for estimates of its work."""
+"""What is expected of the friction of moving roughness before it is solved, by closed forms: for estimates of its
+work."""
 
 import math
 from dataclasses import dataclass
@@ -19,19 +20,22 @@ REDISTRIBUTED = 2.0
 # Such a change over f, above which that hardness is solved [-]. A convention.
 HARDNESS_MATTERS = 0.02
 
-# Expected asperity load over film load [-]: the first, times the full-load film over Sq and the pressure-viscosity coefficient
-# times the Hertz pressure, each to its power. Fitted to the 228 contacts with a shear law among the rolling ones of
-# verification.campaigns.calibration: ln of the ratio has a standard deviation of 1.75 about it, and of 3.4 in all.
+# Expected asperity load over film load [-]: the first, times the full-load film over Sq and the pressure-viscosity
+# coefficient times the Hertz pressure, each to its power. Fitted to the 228 contacts with a shear law among the rolling
+# ones of verification.campaigns.calibration: ln of the ratio has a standard deviation of 1.75 about it, and of 3.4 in
+# all.
 LOAD_RATIO = 0.27
 LOAD_RATIO_BY_FILM = -2.9
 LOAD_RATIO_BY_THICKENING = -0.88
 
-# The least of that coefficient times that pressure that counts [-]: below it the viscosity changes little. A convention.
+# The least of that coefficient times that pressure that counts [-]: below it the viscosity changes little. A
+# convention.
 LEAST_COUNTED_THICKENING = 1.0
 
-# Slide-roll ratio times film load ratio (`solved_ends_of_shear`) at which one of the two ends of the range of a flow law is expected
-# to be solved in motion [-]. Fitted by its likelihood to 95 random contacts of ``verification.campaigns.estimates`` up to 1.5 GPa with
-# typical ranges, where 66 of 190 ends were; of the limiting stress 11 of 170, and none is expected.
+# Slide-roll ratio times film load ratio (`solved_ends_of_shear`) at which one of the two ends of the range of a flow
+# law is expected to be solved in motion [-]. Fitted by its likelihood to 95 random contacts of
+# ``verification.campaigns.estimates`` up to 1.5 GPa with typical ranges, where 66 of 190 ends were; of the limiting
+# stress 11 of 170, and none is expected.
 HALF_OF_ENDS = 0.47
 
 
@@ -48,7 +52,8 @@ class ExpectedFriction:
 
     @property
     def contrast(self) -> float:
-        """The change of f, over it, by all of the load that moves from the film to asperities; 0 where nothing slides."""
+        """The change of f, over it, by all of the load that moves from the film to asperities; 0 where nothing
+        slides."""
         f = self.share * self.boundary + (1.0 - self.share) * self.film
         return abs(self.boundary - self.film) / f if f > 0 else 0.0
 
@@ -69,12 +74,12 @@ def expected_friction(scene: Scene, sq: float, speed: float) -> ExpectedFriction
 
 
 def solved_ends_of_hardness(scene: Scene, surface: Surface, speed: float) -> int:
-    """Return how many ends of a range of the hardness are expected to be solved at ``speed`` [m/s] (`HARDNESS_MATTERS`): those
-    that move enough load.
+    """Return how many ends of a range of the hardness are expected to be solved at ``speed`` [m/s]
+    (`HARDNESS_MATTERS`): those that move enough load.
 
-    Asperities of an elastic ``surface`` of the rms slope s have pressures of Rayleigh's distribution, of the scale E' s/4 (B. N. J.
-    Persson, J. Chem. Phys. 115 (2001) 3840-3861, doi:10.1063/1.1388626, at a small part of the area in contact). Of their load,
-    erfc(H/(sqrt(2) scale)) is above the hardness H.
+    Asperities of an elastic ``surface`` of the rms slope s have pressures of Rayleigh's distribution, of the scale E'
+    s/4 (B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840-3861, doi:10.1063/1.1388626, at a small part of the area in
+    contact). Of their load, erfc(H/(sqrt(2) scale)) is above the hardness H.
     """
     expected = expected_friction(scene, surface.sq, speed)
     scale = scene.bodies.e_prime * rms_slope(surface)[2] / 4.0
@@ -92,10 +97,12 @@ def solved_ends_of_hardness(scene: Scene, surface: Surface, speed: float) -> int
 
 
 def solved_ends_of_shear(scene: Scene, sq: float, speed: float, name: str) -> float:
-    """Return how many ends of the range of the stress ``name`` of an oil are expected to be solved at ``speed`` [m/s], on moving
-    roughness of ``sq`` [m]: none of a limiting stress; of a flow law those at which its films flow so differently that f changes.
+    """Return how many ends of the range of the stress ``name`` of an oil are expected to be solved at ``speed`` [m/s],
+    on moving roughness of ``sq`` [m]: none of a limiting stress; of a flow law those at which its films flow so
+    differently that f changes.
 
-    Sliding thins the pressure flow around asperities in proportion to the slide-roll ratio, in the films that carry the load.
+    Sliding thins the pressure flow around asperities in proportion to the slide-roll ratio, in the films that carry the
+    load.
     """
     if name not in OF_FLOW:
         return 0.0

@@ -1,10 +1,11 @@
 """Newton steps that strips and patches at rest are expected to take, by closed forms.
 
-Those of flooded and starved contacts follow from the number of columns of cells along x. Their constants are fitted to 286 solves of
-random patches of ``verification.campaigns.estimates``, on 2 to 6 lengths of cells each. Of 86 random strips of Hertz pressures up to
-1.5 GPa, with Hertz half-widths of 1 to 40 correlation lengths, 94 % take them within a factor of 2, and 87 % on cells twice as long;
-those of 64 rows above 1 GPa take 55 and 122 steps where one place resists. The constants of starved and soft strips are fitted to 34
-with .15 to 1 of the film that would flow in, and 40 of E' 0.2 to 20 GPa and up to 60 MPa. Those without a solution count as 300 steps.
+Those of flooded and starved contacts follow from the number of columns of cells along x. Their constants are fitted to
+286 solves of random patches of ``verification.campaigns.estimates``, on 2 to 6 lengths of cells each. Of 86 random
+strips of Hertz pressures up to 1.5 GPa, with Hertz half-widths of 1 to 40 correlation lengths, 94 % take them within a
+factor of 2, and 87 % on cells twice as long; those of 64 rows above 1 GPa take 55 and 122 steps where one place
+resists. The constants of starved and soft strips are fitted to 34 with .15 to 1 of the film that would flow in, and 40
+of E' 0.2 to 20 GPa and up to 60 MPa. Those without a solution count as 300 steps.
 """
 
 import math
@@ -17,10 +18,10 @@ from .counted_work import work_of_steps
 from .problem import are_soft
 from .solve import MOST_FACTORISATIONS
 
-# Newton steps on one column of cells along x, which is not pressed [-]; times the columns to the power `STEPS_BY_COLUMNS`, and the
-# exponential of `STEPS_BY_PRESSING` times how far a thin film is pressed between conforming bodies (`_pressed`). Fitted: the last 0.06 to
-# patches alone, 0.1 with the times of runs at rest; a tenth of the patches takes 50 to 570 steps, most of all in films below 0.1 Sq, for
-# which the first has 20 % more than the fit.
+# Newton steps on one column of cells along x, which is not pressed [-]; times the columns to the power
+# `STEPS_BY_COLUMNS`, and the exponential of `STEPS_BY_PRESSING` times how far a thin film is pressed between conforming
+# bodies (`_pressed`). Fitted: the last 0.06 to patches alone, 0.1 with the times of runs at rest; a tenth of the
+# patches takes 50 to 570 steps, most of all in films below 0.1 Sq, for which the first has 20 % more than the fit.
 COLUMN_STEPS = 2.5
 STEPS_BY_COLUMNS = 0.29
 STEPS_BY_PRESSING = 0.1
@@ -28,18 +29,18 @@ STEPS_BY_PRESSING = 0.1
 # Logarithm of the lambda ratio below which that begins [-]: Λ 1.6. Fitted.
 STEPS_BY_PRESSING_BELOW = 0.5
 
-# Iterations of GMRES in such a step [-], at a pressure-viscosity coefficient times Hertz pressure of 1; times that to the first
-# power, and the exponential of the second times the same pressing. Fitted to the same solves.
+# Iterations of GMRES in such a step [-], at a pressure-viscosity coefficient times Hertz pressure of 1; times that to
+# the first power, and the exponential of the second times the same pressing. Fitted to the same solves.
 KRYLOV_ITERATIONS = 2.07
 KRYLOV_BY_THICKENING = 0.35
 KRYLOV_BY_PRESSING = 0.1
 
-# Part of these steps that a solve takes which begins at a solution nearby [-], as at an end of the range of an input: 0.3 in the median,
-# 0.4 in the mean of 171 ends of these strips. Measured.
+# Part of these steps that a solve takes which begins at a solution nearby [-], as at an end of the range of an input:
+# 0.3 in the median, 0.4 in the mean of 171 ends of these strips. Measured.
 AGAIN = 0.4
 
-# Newton steps where a given film arrives over those of a flooded contact [-]: 1.7 in the median, 79 % within a factor of 3; the mean of
-# such a normal distribution of the logarithm is 1.5 times the median. Fitted.
+# Newton steps where a given film arrives over those of a flooded contact [-]: 1.7 in the median, 79 % within a factor
+# of 3; the mean of such a normal distribution of the logarithm is 1.5 times the median. Fitted.
 STARVED = 2.5
 
 # Newton steps on a strip of soft bodies (`are_soft`) at Λ 1 and a pressure-viscosity coefficient times Hertz pressure
@@ -79,8 +80,8 @@ class ExpectedSteps:
 
 
 def expected_steps(scene: Scene, sq: float, speed: float, columns: float) -> ExpectedSteps:
-    """Return the steps on a surface of ``sq`` [m] whose roughness rests at ``speed`` [m/s], not 0, on so many ``columns`` of cells
-    along x."""
+    """Return the steps on a surface of ``sq`` [m] whose roughness rests at ``speed`` [m/s], not 0, on so many
+    ``columns`` of cells along x."""
     line = scene.line_contact(abs(speed))
     thickened = max(scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene), LEAST_THICKENED)
     if are_soft(line, sq):
@@ -97,7 +98,7 @@ def expected_steps(scene: Scene, sq: float, speed: float, columns: float) -> Exp
 
 
 def _pressed(line: LineContact, sq: float, film: float) -> float:
-    """Return how far a ``film`` [m] on roughness of ``sq`` [m] is pressed between conforming bodies, ln(flattening/Sq)·(1/2 - ln Λ), each
-    factor 0 at least; Λ: of the film that arrives."""
+    """Return how far a ``film`` [m] on roughness of ``sq`` [m] is pressed between conforming bodies,
+    ln(flattening/Sq)·(1/2 - ln Λ), each factor 0 at least; Λ: of the film that arrives."""
     flattening = line.half_width**2 / (2 * line.radius)
     return max(math.log(flattening / sq), 0.0) * max(STEPS_BY_PRESSING_BELOW - math.log(film / sq), 0.0)

@@ -1,7 +1,7 @@
 """The counted work of a step in time that is expected of moving roughness, by a closed form.
 
-Its constants are the fit of ``python -m verification.campaigns.rolling_work`` to the first steps of random contacts, on the cells of
-the deterministic model and on long ones.
+Its constants are the fit of ``python -m verification.campaigns.rolling_work`` to the first steps of random contacts, on
+the cells of the deterministic model and on long ones.
 """
 
 import math
@@ -23,8 +23,8 @@ BY_TIGHT_STEPS = 0.333
 # These in the order of `StepFacts.features` [-]. By definition.
 COEFFICIENTS = (LOG_WORK, BY_THICKENING, BY_RIDGES_ALONG, BY_PART_OF_CELL, BY_TIGHT_STEPS)
 
-# The pressure-viscosity coefficient times Hertz pressure over Λ below which the work of a step changes with it no more [-]: about
-# the least in the contacts of the fit. Measured there.
+# The pressure-viscosity coefficient times Hertz pressure over Λ below which the work of a step changes with it no more
+# [-]: about the least in the contacts of the fit. Measured there.
 LEAST_THICKENING = 0.56
 
 # Λ below which ridges along the motion change the work of a step [-]. A choice: between 1 and 4 the fit is as good.
@@ -52,8 +52,8 @@ class StepFacts:
 
     @classmethod
     def of(cls, scene: Scene, *, sq: float, speed: float, lengths: tuple[float, float], cell: float) -> "StepFacts":
-        """Return the facts of roughness of ``sq`` [m] and the correlation ``lengths`` [m] at ``speed`` [m/s], on cells [m] along
-        x."""
+        """Return the facts of roughness of ``sq`` [m] and the correlation ``lengths`` [m] at ``speed`` [m/s], on cells
+        [m] along x."""
         (lx, ly) = lengths
         line = scene.line_contact(abs(speed))
         return cls(

@@ -1,7 +1,7 @@
 """What a strip of moving roughness takes, measured on its first steps in time.
 
-A closed form knows the work of a step within a factor of 2 for nine of ten contacts (`StepFacts`). The first steps of the strip itself
-know it better, and what the processor does with it.
+A closed form knows the work of a step within a factor of 2 for nine of ten contacts (`StepFacts`). The first steps of
+the strip itself know it better, and what the processor does with it.
 """
 
 import time
@@ -49,8 +49,8 @@ class FirstSteps:
 
 
 def first_steps(prepared: Prepared, speed: float) -> FirstSteps | None:
-    """Solve the first strip of moving roughness at ``speed`` [m/s] at rest and for its first steps in time, as a point does; None
-    where one of these is not solved within `MOST_WORK_OF_MEASUREMENT`."""
+    """Solve the first strip of moving roughness at ``speed`` [m/s] at rest and for its first steps in time, as a point
+    does; None where one of these is not solved within `MOST_WORK_OF_MEASUREMENT`."""
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     bodies = bodies_of(prepared, 0, speed)

@@ -106,8 +106,8 @@ def couette_flow(problem: Problem, mass: FloatArray, fill: float | FloatArray, U
 class MassBalance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
-    flow_gap: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond which
-    p = 0; they have ruptured, but for a film that is squeezed out.
+    flow_gap: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond
+    which p = 0; they have ruptured, but for a film that is squeezed out.
     """
 
     residual: np.ndarray

@@ -1,7 +1,8 @@
 """Heat of a strip by the deterministic model, and the error of f by it.
 
-The heat of the inlet is in its film (`lubfric.models.shared.film_lubricant`). That of film and surfaces lowers the shear
-stress: the walls are as hot as the means over its columns make them, and every cell has the stress between such walls.
+The heat of the inlet is in its film (`lubfric.models.shared.film_lubricant`). That of film and surfaces lowers the
+shear stress: the walls are as hot as the means over its columns make them, and every cell has the stress between such
+walls.
 """
 
 import numpy as np
@@ -38,8 +39,8 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:
-    """Return ``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``. It takes its share of f from
-    the sliding part of the film's force, or from the rolling part where that is less."""
+    """Return ``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``. It takes its share of f
+    from the sliding part of the film's force, or from the rolling part where that is less."""
     f = numbers["coefficient"]
     lost = abs(f) * heat.change * scene.bodies.load
     part = "couette_force" if lost <= numbers["couette_force"] else "rolling_force"

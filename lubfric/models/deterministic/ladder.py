@@ -21,19 +21,20 @@ LEAST_STRIP_ERROR = 2e-3
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
 
-# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers [-]: measured
-# 1.1 to 1.9 on two measured maps.
+# Counted work of a Newton step on cells half as long over that on the longer ones and over the ratio of their numbers
+# [-]: measured 1.1 to 1.9 on two measured maps.
 FINER_WORK = 1.4
 
-# Work of a solve on shorter cells over the expected, at which it ends [-]: .55 to 1.2 where it converges on the same. A choice.
+# Work of a solve on shorter cells over the expected, at which it ends [-]: .55 to 1.2 where it converges on the same. A
+# choice.
 MOST_OVER_EXPECTED = 2.5
 
-# Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller. A choice
-# between time and that error.
+# Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller.
+# A choice between time and that error.
 CHEAP_WORK = 15.0
 
-# Newton steps that a solve on cells half as long is expected to take [-], or twice those on the longer ones if these are fewer:
-# measured 11 to 24 on the same, 6 and 7 on a patch of 1 GPa.
+# Newton steps that a solve on cells half as long is expected to take [-], or twice those on the longer ones if these
+# are fewer: measured 11 to 24 on the same, 6 and 7 on a patch of 1 GPa.
 STEPS_ON_FINER_CELLS = 16
 
 # Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in
@@ -111,11 +112,11 @@ def continued(
     is_first_needed: bool = False,
     has_end: bool = False,
 ) -> Ladder:
-    """Return a map on the cells of ``strips``, the last of which are as long as ``coarsening`` says, and on shorter and shorter ones,
-    until the estimated ``error`` is within ``tolerance`` or shorter ones do not pay (`pays`).
+    """Return a map on the cells of ``strips``, the last of which are as long as ``coarsening`` says, and on shorter and
+    shorter ones, until the estimated ``error`` is within ``tolerance`` or shorter ones do not pay (`pays`).
 
-    Where they do not converge, are too many, or take more than ``most`` [s], those before count, and the error is `UNSOLVED_FACTOR`
-    times the estimate from them.
+    Where they do not converge, are too many, or take more than ``most`` [s], those before count, and the error is
+    `UNSOLVED_FACTOR` times the estimate from them.
 
     Parameters
     ----------
@@ -181,12 +182,12 @@ def pays(
     most_halvings: int = 1,
     left: float = math.inf,
 ) -> bool:
-    """Return whether cells half as long are worth their ``expected`` work [s] after ``changes`` of f from cells to cells, on which a
-    point has ``spent`` so much [s].
+    """Return whether cells half as long are worth their ``expected`` work [s] after ``changes`` of f from cells to
+    cells, on which a point has ``spent`` so much [s].
 
-    They are solved within ``most`` of the work [s]: where they at most double the work of the point, or take no more than
-    `CHEAP_WORK`, or where they, or up to ``most_halvings`` in all, lead to an error within ``tolerance``, if
-    the changes go on to fall as the last two did. ``left``: as of `error_by_cells`, before them.
+    They are solved within ``most`` of the work [s]: where they at most double the work of the point, or take no more
+    than `CHEAP_WORK`, or where they, or up to ``most_halvings`` in all, lead to an error within ``tolerance``, if the
+    changes go on to fall as the last two did. ``left``: as of `error_by_cells`, before them.
     """
     if expected > most:
         return False
@@ -207,8 +208,8 @@ def expected_work(longer: StripSolution, times_cells: float) -> float:
 
 
 def error_of_soft_bodies(strip: StripSolution) -> float:
-    """Return the relative error of f that the cells of a ``strip`` of soft bodies (`are_soft`) may leave at least, because
-    they are long for the Hertz strip; 0 for other bodies."""
+    """Return the relative error of f that the cells of a ``strip`` of soft bodies (`are_soft`) may leave at least,
+    because they are long for the Hertz strip; 0 for other bodies."""
     problem = strip.problem
     if not are_soft(problem.line, float(problem.heights.std())):
         return 0.0
@@ -216,5 +217,6 @@ def error_of_soft_bodies(strip: StripSolution) -> float:
 
 
 def error_of_strip(strip: StripSolution) -> float:
-    """Return the relative error of f that the tolerance of a ``strip``, and its cells if the bodies are soft, leave at least."""
+    """Return the relative error of f that the tolerance of a ``strip``, and its cells if the bodies are soft, leave at
+    least."""
     return max(LEAST_STRIP_ERROR, error_of_soft_bodies(strip))

@@ -11,11 +11,11 @@
     4       the same on a quarter               one piece, a sixth as long as a strip
 
 The control is by how much each strip differs from the many strips that Eq. (8) joins
-(`lubfric.models.load_sharing.differences_of_strips`). Its mean over the few strips is the part of theirs that is chance.
-Few strips are enough where both models scatter alike, as they do near the lift-off speed on most surfaces. Where they do
-not, the control is omitted. The strips that are solved show whether fewer are needed with the control or without it
-(M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496). Where roughness moves there is level 2 alone,
-with the control of its summits (`summits`) and a factor for the cells (`cells_in_motion`).
+(`lubfric.models.load_sharing.differences_of_strips`). Its mean over the few strips is the part of theirs that is
+chance. Few strips are enough where both models scatter alike, as they do near the lift-off speed on most surfaces.
+Where they do not, the control is omitted. The strips that are solved show whether fewer are needed with the control or
+without it (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496). Where roughness moves there is level
+2 alone, with the control of its summits (`summits`) and a factor for the cells (`cells_in_motion`).
 """
 
 import math
@@ -78,16 +78,16 @@ STRIP_OVER_BLOCKS = 1.3
 # (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
 DIFFERENCE_OVER_BLOCKS = 1.2
 
-# Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %, twice
-# takes a third more time.
+# Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %,
+# twice takes a third more time.
 PRIOR = 3
 
 # Degrees of freedom of the scatter of blocks, at most [-]: blocks of one strip are not independent of each other. Half
 # takes 39 % more time, twice narrows the interval by 8 %.
 FREEDOM = 5
 
-# Bias of strips that balance the load each by itself, over (scatter of f between strips)² [-]: .5 to 1 % near the lift-off
-# speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
+# Bias of strips that balance the load each by itself, over (scatter of f between strips)² [-]: .5 to 1 % near the
+# lift-off speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
 BALANCED = 1.3
 
 # Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`). A choice: more may
@@ -98,7 +98,8 @@ STRIPS_GROWTH = (4.0, 2.0)
 # Factor on the strips that an error needs, and least growth [-] (`strips_for_error`). A choice, as in `STRIPS_GROWTH`.
 STRIPS_SPARE = (1.1, 1.2)
 
-# Work of a strip on these cells over that on both lengths before [-]: measured 2.3 on a needle roller at 2 m/s, after those.
+# Work of a strip on these cells over that on both lengths before [-]: measured 2.3 on a needle roller at 2 m/s, after
+# those.
 HALVED_WORK = 2.5
 
 # Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges. A choice:
@@ -119,26 +120,17 @@ OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 class Levels:
     """What all levels say of one operating point.
 
-    Attributes
-    ----------
-    numbers : of the deterministic model on an infinite line contact, by name
-    errors : their relative standard errors, by name
-    rolling_of_strips : rolling part of the friction force [N], mean of the strips; what f has beside it are its sliding parts
-    by_film : relative changes of f by half and by twice the boundary film
-    by_flow : relative change of f by another law of the flow
-    by_inlet : relative change of f without the heat of the inlet
-    control_strips : number of strips of the first level, the control; 0: it was omitted
-    pairs : the strips of the second level
-    pieces : those of the third, each on shorter and shorter cells
-    shortest : the piece of the fourth; empty: there is none
-    finest : the first strip, on the shortest cells that it is solved on
-    sampling_error : relative, of f, by the number of strips
-    difference_error : relative standard error of f, by the difference between the models
-    numerical : relative error of f, by the cells of the last level
-    length : of all strips [m]
-    end_of_cells : why there are no shorter cells
-    note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
-    by_summits : the correction of f by the summits, relative to the f of this estimate
+    Attributes ---------- numbers : of the deterministic model on an infinite line contact, by name errors : their
+    relative standard errors, by name rolling_of_strips : rolling part of the friction force [N], mean of the strips;
+    what f has beside it are its sliding parts by_film : relative changes of f by half and by twice the boundary film
+    by_flow : relative change of f by another law of the flow by_inlet : relative change of f without the heat of the
+    inlet control_strips : number of strips of the first level, the control; 0: it was omitted pairs : the strips of the
+    second level pieces : those of the third, each on shorter and shorter cells shortest : the piece of the fourth;
+    empty: there is none finest : the first strip, on the shortest cells that it is solved on sampling_error : relative,
+    of f, by the number of strips difference_error : relative standard error of f, by the difference between the models
+    numerical : relative error of f, by the cells of the last level length : of all strips [m] end_of_cells : why there
+    are no shorter cells note : how f was corrected by the summits and the cells of moving roughness, as text; "": not
+    at all by_summits : the correction of f by the summits, relative to the f of this estimate
     """
 
     numbers: dict[str, float]
@@ -206,8 +198,8 @@ class TwoLevelEstimate:
 def solve_pairs(
     prepared: Prepared, speed: float, count: int, *, solved: Sequence[StripOnTwoGrids] = ()
 ) -> tuple[StripOnTwoGrids, ...]:
-    """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, where
-    these are solved already."""
+    """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them,
+    where these are solved already."""
     first = tuple(solved) or (_first_pair(prepared, speed),)
     solve = partial(solve_pair, slope=first[0].resolved.slope, has_halved_cells=first[0].has_halved_cells)
     return (*first, *map_parts(solve, range(len(first), count), prepared, speed))
@@ -216,8 +208,8 @@ def solve_pairs(
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells
     is above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as
-    many strips as the sample needs stay within `MOST_WORK_OF_POINT`. Raises `TooCostlyError` where its first steps forecast
-    more than the caller allows (`limited_forecast`)."""
+    many strips as the sample needs stay within `MOST_WORK_OF_POINT`. Raises `TooCostlyError` where its first steps
+    forecast more than the caller allows (`limited_forecast`)."""
     pair = solve_pair(prepared, speed, 0, find_slope=True, most_work=forecast_limit())
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
@@ -281,9 +273,9 @@ def levels_of(
     *,
     with_shorter_cells: bool = True,
 ) -> Levels:
-    """Return what all levels say at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
-    change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
-    is for others to state. Raises `ConvergenceError`."""
+    """Return what all levels say at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if
+    the change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by
+    the cells is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
     results = [pair.resolved.result for pair in pairs]
     rolling = mean(result.rolling for result in results) * prepared.scene.bodies.width
@@ -338,13 +330,13 @@ def levels_of(
 def with_divided_contact_load(
     scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]
 ) -> dict[str, float]:
-    """Return ``numbers`` with the asperity load divided into boundary film and saturated film as on the strips, of which
-    the ``results`` are. The control and shorter cells change the load itself.
+    """Return ``numbers`` with the asperity load divided into boundary film and saturated film as on the strips, of
+    which the ``results`` are. The control and shorter cells change the load itself.
 
-    How shorter cells change the division depends on the speed, and pieces are solved at another one: on the patch of the
-    scene "paper" the saturated film falls from 12 to 0.4 % of the load at 0.01 m/s, and grows from 43 to 55 % at 0.015
-    m/s. The bounds by the unknown limit of the oil rest on the same division. With a shear law a film at its limiting
-    stress is part of the film load.
+    How shorter cells change the division depends on the speed, and pieces are solved at another one: on the patch of
+    the scene "paper" the saturated film falls from 12 to 0.4 % of the load at 0.01 m/s, and grows from 43 to 55 % at
+    0.015 m/s. The bounds by the unknown limit of the oil rest on the same division. With a shear law a film at its
+    limiting stress is part of the film load.
     """
     thin = mean(result.split.thin for result in results)
     capped = mean(result.split.capped for result in results)
@@ -392,7 +384,8 @@ def _estimate_at_rest(
 
 
 def samples_over_time(pairs: Sequence[StripOnTwoGrids]) -> list[TimeAndPlace]:
-    """Return what the places of strips rub at moments, of those ``pairs`` whose roughness moves; of a mirrored map one half."""
+    """Return what the places of strips rub at moments, of those ``pairs`` whose roughness moves; of a mirrored map one
+    half."""
     samples = []
     for pair in pairs:
         places = pair.resolved.places_over_time
@@ -405,8 +398,8 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     """Return the mean over strips whose roughness moves, with the control of their summits (`summits`).
 
     It corrects f, the asperity load and the sliding part of the film's force each by its own dependence on the summits,
-    which for f is the sum of those of its parts. The rest is of the rolling part: the pressure on the flanks of surface 2
-    scatters most where asperities carry the load. A part whose corrected value is not possible is that of the strips.
+    which for f is the sum of those of its parts. The rest is of the rolling part: the pressure on the flanks of surface
+    2 scatters most where asperities carry the load. A part whose corrected value is not possible is that of the strips.
     """
     rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}

@@ -27,21 +27,21 @@ from .state import RUPTURED, TOUCHING, Iterate, State, stored
 # The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
 # (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.linear.`).
 
-# Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice change the work by 1 %; 0.03
-# fails at 1 GPa and 0.03 m/s.
+# Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice change the work by 1 %;
+# 0.03 fails at 1 GPa and 0.03 m/s.
 GMRES_RESIDUAL = 0.01
 
-# Residual of the linear system over its right side, at which GMRES ends at rest where rows are scaled [-]. A roller of 1 GPa
-# at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than with `GMRES_RESIDUAL` in rows that are not scaled; light contacts
-# 7 % more. Half and twice: 1 % more work.
+# Residual of the linear system over its right side, at which GMRES ends at rest where rows are scaled [-]. A roller of
+# 1 GPa at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than with `GMRES_RESIDUAL` in rows that are not scaled;
+# light contacts 7 % more. Half and twice: 1 % more work.
 SCALED_ACCURACY = 0.1
 
-# Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were measured.
-# Half changes nothing, twice takes 11 % more work, 66 % at 1 GPa.
+# Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were
+# measured. Half changes nothing, twice takes 11 % more work, 66 % at 1 GPa.
 HIGH_PRESSURE = 10.0
 
-# Diagonal of the scaled sparse part, below which a row is not scaled up further [-]: a guard against division by 0. Half
-# and twice change nothing.
+# Diagonal of the scaled sparse part, below which a row is not scaled up further [-]: a guard against division by 0.
+# Half and twice change nothing.
 SMALLEST_DIAGONAL = 1e-12
 
 # Coefficient of the sparse part over the diagonal of its row, below which the LU of a step in time that follows the
@@ -220,14 +220,14 @@ class System:
 
 
 def flow_of_first_order(data: FloatArray, except_from: BoolArray | None = None) -> None:
-    """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place, but where that cell
-    is in ``except_from`` (nx, ny).
+    """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place, but
+    where that cell is in ``except_from`` (nx, ny).
 
     The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single
     precision loses less. A roller of 1 GPa at rest at 10, 3, 1, 0.3 m/s takes 99, 300, 555, 763 iterations of GMRES
     with the second-order flow, and 93, 232, 441, 788 with this one, in 22 % less time. Cells that have yielded are
-    excepted: the unknown there is a dent, which nothing but this flow joins to the next cells. On 261 x 64 cells of a measured map,
-    of which 0.5 % have yielded, 869 iterations in 33 Newton steps become 61 in 15.
+    excepted: the unknown there is a dent, which nothing but this flow joins to the next cells. On 261 x 64 cells of a
+    measured map, of which 0.5 % have yielded, 869 iterations in 33 Newton steps become 61 in 15.
     """
     far = Stencil.NAMES.index("WW")
     replaced = data[far].copy()
@@ -266,8 +266,8 @@ def gmres(
     ``most`` iterations, in all ``cycles`` times begun.
 
     Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, doi:10.1137/0907058. Returns x and the
-    iterations. ``scipy.sparse.linalg.gmres`` on the preconditioned operator takes 885 products for 378, and 1.3 times as long,
-    on the scene "paper" at 0.003, 0.03 and 0.1 m/s.
+    iterations. ``scipy.sparse.linalg.gmres`` on the preconditioned operator takes 885 products for 378, and 1.3 times
+    as long, on the scene "paper" at 0.003, 0.03 and 0.1 m/s.
     """
     size = np.linalg.norm(right)
     x = np.zeros_like(right)

@@ -2,13 +2,13 @@
 
     div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
 
-In a step the lubricant passes one cell, and the step is BDF3, of third order: (11 m - 18 m1 + 9 m2 - 2 m3)/(6 dt),
-with m the mass rho θ h, and mn that of n moments ago, n cells upstream; limited where a summit fills a gap
-(`state.stored`). A step that Newton's method does not solve is taken by second order, or else by first. Along the way of
-the lubricant both first terms of the balance are one, d(rho θ h)/dt. Waves that go with it lose nothing, and of a film at
-rest that is third-order upwind. (In steps and cells that are at rest, waves of 12 cells lost half of their height in a
-half-width. With BDF2 along the lubricant, ten cells in the half-width of a needle roller let 5.5 % less film through its
-short inlet. Then f, which depends on the thinnest film, was 33 % too high; with BDF3 it is 6 % too high.)
+In a step the lubricant passes one cell, and the step is BDF3, of third order: (11 m - 18 m1 + 9 m2 - 2 m3)/(6 dt), with
+m the mass rho θ h, and mn that of n moments ago, n cells upstream; limited where a summit fills a gap (`state.stored`).
+A step that Newton's method does not solve is taken by second order, or else by first. Along the way of the lubricant
+both first terms of the balance are one, d(rho θ h)/dt. Waves that go with it lose nothing, and of a film at rest that
+is third-order upwind. (In steps and cells that are at rest, waves of 12 cells lost half of their height in a
+half-width. With BDF2 along the lubricant, ten cells in the half-width of a needle roller let 5.5 % less film through
+its short inlet. Then f, which depends on the thinnest film, was 33 % too high; with BDF3 it is 6 % too high.)
 
 Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step.
 Then steps are BDF2 of the cell itself, the Couette flow is second-order upwind, and the first step is implicit Euler;
@@ -66,7 +66,8 @@ STEPS_IN_PARTS = 4
 EULER_STEPS = 4
 
 # Orders of a step along the lubricant [-]: the first, and those that follow where it is not solved. On an exponential
-# surface (verification/campaigns/moving_coverage, seed 2) one step of 52 needs the second, which takes 5 LU factorisations.
+# surface (verification/campaigns/moving_coverage, seed 2) one step of 52 needs the second, which takes 5 LU
+# factorisations.
 STEP_ORDERS = (3, 2, 1)
 
 # Distance over which the pressure is smoothed, to separate what goes with the roughness [half-widths]. Half takes 12 %
@@ -87,8 +88,8 @@ EXTRAPOLATED_TOGETHER = 1.0
 # slide-roll ratio of .1.
 SAME_CELLS = 0.05
 
-# Part of the largest pressure above which a cell counts in the mean gap that the start of a step keeps [-]. A choice: where the
-# pressure is low, the film is thick.
+# Part of the largest pressure above which a cell counts in the mean gap that the start of a step keeps [-]. A choice:
+# where the pressure is low, the film is thick.
 PRESSED_PART = 0.1
 
 # Steps in time after a start from rest that begin without a part of the last change [-]: the change from rest to motion
@@ -250,8 +251,8 @@ def _past_of(at: Iterate) -> Past:
 
 
 def _history(problem: Problem, at: Iterate, past: Past, step: float, *, order: int = STEP_ORDERS[0]) -> TimeHistory:
-    """Return the history of the step from ``at`` to ``problem``; ``past``: that of ``at``; ``order``: of a step along the
-    lubricant."""
+    """Return the history of the step from ``at`` to ``problem``; ``past``: that of ``at``; ``order``: of a step along
+    the lubricant."""
     before = past.before
     earlier = past.earlier
     cell = problem.spacing[0]
@@ -282,8 +283,8 @@ def _history(problem: Problem, at: Iterate, past: Past, step: float, *, order: i
 def _in_parts(
     problem_at: Callable[[float], Problem], at: Iterate, *, time: float, step: float, work: Work, how: dict[str, Any]
 ) -> State:
-    """Return the state after the step after ``time`` in `EULER_STEPS` Euler steps, as far as they are solved: a start only,
-    because they do not keep the mass that the steps of second order keep."""
+    """Return the state after the step after ``time`` in `EULER_STEPS` Euler steps, as far as they are solved: a start
+    only, because they do not keep the mass that the steps of second order keep."""
     for part in range(1, EULER_STEPS + 1):
         problem = problem_at(time + part * step / EULER_STEPS)
         history = TimeHistory(extrapolated=at.mass, step=step / EULER_STEPS)
@@ -295,12 +296,13 @@ def _in_parts(
 
 
 def _begun(problem: Problem, at: Iterate, before: State, cells: float, smooth: int, rate: float) -> State:
-    """Return the state with which the step from ``at`` to ``problem`` begins: `_moved`, with the load of ``at``, and with its mean
-    gap where the pressure is above `PRESSED_PART` of the largest.
+    """Return the state with which the step from ``at`` to ``problem`` begins: `_moved`, with the load of ``at``, and
+    with its mean gap where the pressure is above `PRESSED_PART` of the largest.
 
-    The pressure that is moved carries another load, whose deflection closes a thin film: a third of all cells would touch. Of
-    14 rolling contacts of verification.campaigns.calibration two, with .58 and 1.59 cells in a step, take 22 and 16 Newton steps
-    in a step in time from the pressure moved by complete cells, and 8 and 12 so; the others take the same within 16 %.
+    The pressure that is moved carries another load, whose deflection closes a thin film: a third of all cells would
+    touch. Of 14 rolling contacts of verification.campaigns.calibration two, with .58 and 1.59 cells in a step, take 22
+    and 16 Newton steps in a step in time from the pressure moved by complete cells, and 8 and 12 so; the others take
+    the same within 16 %.
     """
     state = _moved(at.state, before, cells, smooth, rate)
     state = replace(state, pressure=state.pressure * (at.state.pressure.sum() / state.pressure.sum()))
@@ -311,8 +313,8 @@ def _begun(problem: Problem, at: Iterate, before: State, cells: float, smooth: i
 
 
 def moved_downstream(values: FloatArray, cells: float) -> FloatArray:
-    """Return ``values`` (nx, ny) moved by so many ``cells`` along x, linear between them; the first row enters, or the last
-    one where they move upstream, by a negative number."""
+    """Return ``values`` (nx, ny) moved by so many ``cells`` along x, linear between them; the first row enters, or the
+    last one where they move upstream, by a negative number."""
     if cells < 0:
         return moved_downstream(values[::-1], -cells)[::-1]
     complete = math.floor(cells)
@@ -325,8 +327,8 @@ def moved_downstream(values: FloatArray, cells: float) -> FloatArray:
 
 
 def _moved(state: State, before: State, cells: float, smooth: int, rate: float) -> State:
-    """Return ``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of
-    cells (by complete cells), and what the pressure has in addition to its mean over y and ``smooth`` cells along x. The part
+    """Return ``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of cells
+    (by complete cells), and what the pressure has in addition to its mean over y and ``smooth`` cells along x. The part
     ``rate`` of its change since the moment ``before`` is added."""
     mean, old = (
         uniform_filter1d(each.pressure.mean(axis=1, keepdims=True), smooth, axis=0) for each in (state, before)

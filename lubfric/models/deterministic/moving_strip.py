@@ -1,5 +1,5 @@
-"""A strip of surface whose roughness moves through the film: how accurately it is followed, how long, and the means over
-time."""
+"""A strip of surface whose roughness moves through the film: how accurately it is followed, how long, and the means
+over time."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -40,8 +40,8 @@ from .time_and_place import TimeAndPlace, mean_over_blocks
 # The effects of half and twice a constant are those on a roller of 0.55 GPa whose roughness moves (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.moving`). Where f moves there, other moments count.
 
-# Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved the
-# asperity load ratio by 0.013 (verification/campaigns/moving_effort).
+# Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved
+# the asperity load ratio by 0.013 (verification/campaigns/moving_effort).
 CELLS_FOR_LOOSE_STEPS = 8
 
 # LU factorisations in a step in time [-], for the estimate of the work: 3.0 to 4.1 on four contacts of
@@ -68,16 +68,17 @@ SLOW_ROUGHNESS = 0.5
 # time and the error by steps.
 FAST_ROUGHNESS = 2.0
 
-# Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].
-# The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after 10. Half and twice
-# change the interval by 1 and 4 %; twice takes 11 % more time.
+# Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip
+# [half-widths]. The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after
+# 10. Half and twice change the interval by 1 and 4 %; twice takes 11 % more time.
 COMPARED_WAY = 1.0
 
 # Distance that the lubricant travels in the moments of a continuation that count [half-widths]. Half and twice change
 # nothing where only the shear stress has a range.
 CONTINUED_WAY = 0.4
 
-# Moments of a continuation that count, at least [-]. Half and twice change nothing where only the shear stress has a range.
+# Moments of a continuation that count, at least [-]. Half and twice change nothing where only the shear stress has a
+# range.
 FEWEST_CONTINUED = 8
 
 # Distance that the roughness travels in the moments that count before the error of the mean is known first
@@ -89,8 +90,8 @@ PILOT_WAY = 1.5
 # than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
 MOMENTS_GROWTH = (1.25, 2.5)
 
-# Steps in time that forecast the work of a strip, at most [-]. A choice: the mean of so many is within a factor of 1.2 of that of the
-# complete strip in most of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
+# Steps in time that forecast the work of a strip, at most [-]. A choice: the mean of so many is within a factor of 1.2
+# of that of the complete strip in most of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
 FORECAST_STEPS = 10
 
 # Steps in time before them [-]: the first ones from rest take more. A choice, above `moving.STEPS_FROM_REST`.
@@ -109,7 +110,8 @@ SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_fi
 # Inputs that change the shear stress of a film, but very little its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = tuple(f"lubricant.{law.key}" for law in (*FLOW_LAWS, *LIMIT_LAWS))
 
-# Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and three of every place along y.
+# Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and three of every place
+# along y.
 _TYPES = get_type_hints(DeterministicResult)
 AT_PLACES = ("load_at", "friction_at", "couette_at")
 AVERAGED = (*(f.name for f in fields(DeterministicResult) if _TYPES[f.name] is float), *AT_PLACES)
@@ -176,14 +178,15 @@ class ExpectedCourse:
 # longer cells.
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
-# On the long cells of the quick model: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random
-# contacts of verification/campaigns/estimates.
+# On the long cells of the quick model: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of
+# 12 random contacts of verification/campaigns/estimates.
 COURSE_ON_LONG_CELLS = ExpectedCourse(rest=3.0, way=2.0, on_longer=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class SampleTarget:
-    """When a strip has moved long enough: the standard error of f over f is ``relative_error``, by its blocks of time and place.
+    """When a strip has moved long enough: the standard error of f over f is ``relative_error``, by its blocks of time
+    and place.
 
     ``correlation_length`` [m]: of the roughness along y; ``control``: what its friction scatters with.
     """
@@ -258,8 +261,8 @@ class MovingStripSolution(StripSolution):
         return "the last moment of its motion"
 
     def change_from(self, longer: StripSolution) -> float:
-        """Return the change of f from this strip on ``longer`` cells to this one: over the same moments, each followed from
-        rest; at rest, where it was not followed on the longer cells."""
+        """Return the change of f from this strip on ``longer`` cells to this one: over the same moments, each followed
+        from rest; at rest, where it was not followed on the longer cells."""
         if not isinstance(longer, MovingStripSolution):
             return self.rest.change_from(longer)
         moments = min(self.places.friction.shape[0], longer.places.friction.shape[0])
@@ -377,9 +380,9 @@ def solve_moving_strip(
 
 
 def forecast_work(works: Sequence[float], *, steps: int, rest: float) -> float | None:
-    """Return the counted work [s] of a strip of so many ``steps`` in time, as its first ones forecast it, whose ``works`` [s] are known;
-    ``rest``: that of the strip at rest. None where more of them have to be seen: `FORECAST_STEPS` after `STEPS_BEFORE`, or fewer
-    that take `ENOUGH_WORK`."""
+    """Return the counted work [s] of a strip of so many ``steps`` in time, as its first ones forecast it, whose
+    ``works`` [s] are known; ``rest``: that of the strip at rest. None where more of them have to be seen:
+    `FORECAST_STEPS` after `STEPS_BEFORE`, or fewer that take `ENOUGH_WORK`."""
     seen = works[STEPS_BEFORE:]
     if not seen or (len(seen) < FORECAST_STEPS and sum(works) <= ENOUGH_WORK):
         return None
@@ -419,8 +422,9 @@ def steps_in_time(
     has_target: bool,
     most_counted: int | None = None,
 ) -> StepsInTime:
-    """Return the steps in time of `solve_moving_strip` on cells [m] along x; ``has_target``: whether it ends when its `SampleTarget`
-    is reached; ``most_counted``: number of moments that count, at most (None: a complete pass of the map)."""
+    """Return the steps in time of `solve_moving_strip` on cells [m] along x; ``has_target``: whether it ends when its
+    `SampleTarget` is reached; ``most_counted``: number of moments that count, at most (None: a complete pass of the
+    map)."""
     line = scene.line_contact(abs(speed))
     fastest = max(bodies, key=lambda body: abs(body.speed))
     (step, discarded, of_pass) = _steps(line, cell, fastest.speed, fastest.surface.size[0], effort)
@@ -430,7 +434,8 @@ def steps_in_time(
 
 
 def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
-    """Return that the first steps in time, so many (``number``), ``forecast`` more work [s] than the ``most`` that is allowed."""
+    """Return that the first steps in time, so many (``number``), ``forecast`` more work [s] than the ``most`` that is
+    allowed."""
     return (
         f"the roughness moves, and by its first {number} steps in time one strip would take at least {float(f'{forecast:.2g}'):g} s of "
         f"counted work, more than {most:g} s; set numerics.model = 'deterministic' to solve it"
@@ -440,15 +445,16 @@ def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
 def moments_after_rest(
     rest: StripSolution, bodies: Sequence[RoughBody], speed: float, *, step: float, effort: MovingEffort
 ) -> Iterator[Moment]:
-    """Yield the moments of `solve_moving_strip` after ``rest``, the strip at rest, in steps of ``step`` [s], without end."""
+    """Yield the moments of `solve_moving_strip` after ``rest``, the strip at rest, in steps of ``step`` [s], without
+    end."""
     passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, start=rest.result.state, begun=0.0)
     return islice(passing, 1, None)
 
 
 @dataclass(frozen=True, kw_only=True)
 class InputEnds:
-    """Ends of the ranges of inputs at which f follows from the moments: ``oils``, both lubricants by the name of the input,
-    and ``hardness`` [Pa]."""
+    """Ends of the ranges of inputs at which f follows from the moments: ``oils``, both lubricants by the name of the
+    input, and ``hardness`` [Pa]."""
 
     oils: Mapping[str, Sequence[Lubricant]]
     hardness: Sequence[float]
@@ -456,8 +462,8 @@ class InputEnds:
 
 @dataclass(frozen=True, kw_only=True)
 class MomentRecord:
-    """What is kept of a moment: its ``numbers`` by name (`_row`); f `with_oils` at the ends of inputs, by name; the share of the
-    load that ``moved`` at each end of the hardness."""
+    """What is kept of a moment: its ``numbers`` by name (`_row`); f `with_oils` at the ends of inputs, by name; the
+    share of the load that ``moved`` at each end of the hardness."""
 
     numbers: dict[str, Any]
     with_oils: dict[str, list[float]]
@@ -503,7 +509,8 @@ def oils_at_ends(scene: Scene) -> dict[str, tuple[Lubricant, ...]]:
 def with_oils(
     result: DeterministicResult, sliding: float, oils: Mapping[str, Sequence[Lubricant]]
 ) -> dict[str, list[float]]:
-    """Return f of ``result``, which slides at ``sliding`` [m/s], if its films were sheared as the ``oils``, by their names."""
+    """Return f of ``result``, which slides at ``sliding`` [m/s], if its films were sheared as the ``oils``, by their
+    names."""
     return {
         name: [result.coefficient + change_with_oil(result, sliding, oil) for oil in both]
         for name, both in oils.items()
@@ -514,10 +521,10 @@ def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> t
     """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion,
     and the counted work [s].
 
-    It solves moments of the strip once more (`MovingStripSolution.to_continue`), and counts when the film with these inputs
-    has passed the contact (`continued_moments`). It is compared with the strip itself in the same moments
-    (`MovingStripSolution.compared_result`), in which the roughness is in the same places: the ratio of both does not depend
-    on the few places that pass in that time. Raises `ConvergenceError`.
+    It solves moments of the strip once more (`MovingStripSolution.to_continue`), and counts when the film with these
+    inputs has passed the contact (`continued_moments`). It is compared with the strip itself in the same moments
+    (`MovingStripSolution.compared_result`), in which the roughness is in the same places: the ratio of both does not
+    depend on the few places that pass in that time. Raises `ConvergenceError`.
     """
     rest = strip.rest
     bodies = strip.bodies
@@ -539,8 +546,8 @@ def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> t
 
 
 def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int, most: int) -> int:
-    """Return the number of moments that shall count, of ``most``: ``required``, those of the ``places``, if its error is within
-    the ``target``.
+    """Return the number of moments that shall count, of ``most``: ``required``, those of the ``places``, if its error
+    is within the ``target``.
 
     The error is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. So 1 + 1/sqrt(nu) times the error has to
     be within it: a march that ended where blocks happen to scatter little would state too small an error.
@@ -609,8 +616,8 @@ def continued_moments(line: LineContact, cell: float, way: float, effort: Moving
 def _moments_to_continue(
     planned: StepsInTime, line: LineContact, cell: float, way: float, effort: MovingEffort
 ) -> tuple[int, int, int]:
-    """Return `ContinuedMoments.begun`, ``discarded`` and ``counted`` of a strip whose steps in time are ``planned``; other
-    arguments as of `continued_moments`. A strip with fewer moments is continued from rest, and fewer count."""
+    """Return `ContinuedMoments.begun`, ``discarded`` and ``counted`` of a strip whose steps in time are ``planned``;
+    other arguments as of `continued_moments`. A strip with fewer moments is continued from rest, and fewer count."""
     (discarded, counted) = continued_moments(line, cell, way, effort)
     counted = min(counted, planned.least_counted)
     begun = max(0, planned.least - discarded - counted)
@@ -676,15 +683,15 @@ def _passing(
 
 
 def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> float:
-    """Return the number of cells [m] by which the roughness of ``bodies`` moves downstream in a ``step`` [s], negative where it
-    moves upstream: with the mean of their speeds, each with the weight of its mean square height.
+    """Return the number of cells [m] by which the roughness of ``bodies`` moves downstream in a ``step`` [s], negative
+    where it moves upstream: with the mean of their speeds, each with the weight of its mean square height.
 
-    Pressure and cells of both bodies start a step there. With the speed of the fastest, 2 cells instead of 1, a gear flank of
-    1.1 GPa with two equal maps and a slide-roll ratio of 1.28 took 25 instead of 5 Newton steps for a step in time.
-    With a ratio of 2 the maps move by 0 and 2 cells. Then summits of both meet in the start: 160 to 210 of 6,528 cells touch
-    from the start, Newton steps are 0.1 to 0.5 of their length, and a step in time takes 12 to 25. Pressing such cells apart first
-    took a third more. At three moments near the nose of a cam, where the roughness moves upstream, a start upstream takes 8, 18
-    and 38 % less work than one where it was.
+    Pressure and cells of both bodies start a step there. With the speed of the fastest, 2 cells instead of 1, a gear
+    flank of 1.1 GPa with two equal maps and a slide-roll ratio of 1.28 took 25 instead of 5 Newton steps for a step in
+    time. With a ratio of 2 the maps move by 0 and 2 cells. Then summits of both meet in the start: 160 to 210 of 6,528
+    cells touch from the start, Newton steps are 0.1 to 0.5 of their length, and a step in time takes 12 to 25. Pressing
+    such cells apart first took a third more. At three moments near the nose of a cam, where the roughness moves
+    upstream, a start upstream takes 8, 18 and 38 % less work than one where it was.
     """
     weights = [body.surface.sq**2 for body in bodies]
     mean = sum(weight * body.speed for weight, body in zip(weights, bodies)) / max(sum(weights), SMALLEST_SQUARE)
@@ -721,8 +728,8 @@ def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> Determin
 def effort_of(
     scene: Scene, bodies: Sequence[RoughBody], speed: float, map_coarsening: tuple[int, int] = (1, 1)
 ) -> MovingEffort:
-    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``map_coarsening`` times as long as those of
-    the maps."""
+    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``map_coarsening`` times as long as
+    those of the maps."""
     surface, _ = _combined(bodies)
     return effort_for(scene.line_contact(abs(speed)), surface.sq, map_coarsening[0] * surface.spacing[0])
 
@@ -770,8 +777,8 @@ def moving_work(
     factor: float = 1.0,
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
-    `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]. Of a step in time it is
-    `work_of_step_in_time` times the ``factor``."""
+    `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]. Of a step
+    in time it is `work_of_step_in_time` times the ``factor``."""
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
@@ -782,5 +789,6 @@ def moving_work(
 
 
 def work_of_step_in_time(cells: float) -> float:
-    """Return the counted work [s] of a step in time on so many ``cells``, of a contact of which nothing else is known."""
+    """Return the counted work [s] of a step in time on so many ``cells``, of a contact of which nothing else is
+    known."""
     return work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)

@@ -15,8 +15,8 @@ from .state import TOUCHING, Iterate, State, TimeHistory, admissible, evaluated,
 # The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
 # (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.newton.`).
 
-# Part of its gap that a step leaves in every cell, at least [-]. Half changes nothing; twice takes 4 % less work, 22 % less
-# on a soft film.
+# Part of its gap that a step leaves in every cell, at least [-]. Half changes nothing; twice takes 4 % less work, 22 %
+# less on a soft film.
 KEEP = 0.2
 
 # Floors by which a cell may nevertheless sink below the floor in a step [-]: cells at the floor would stop all others.
@@ -42,8 +42,8 @@ SURGE = 2.0
 # Steps in which the residual has to fall [-]. Half and twice change nothing.
 NEWTON_PATIENCE = 20
 
-# Residual over the least one before these steps, to which it has to fall [-]. Half changes nothing, twice takes 6 % more
-# work on a soft film.
+# Residual over the least one before these steps, to which it has to fall [-]. Half changes nothing, twice takes 6 %
+# more work on a soft film.
 PROGRESS = 0.95
 
 # First step in time over dx/U [-]. Half and twice take 14 % less work on a soft film: it is not tuned to it.

@@ -40,8 +40,8 @@ from .strip_on_two_grids import (
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.pieces`).
 
-# Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-]. Half takes 25 % more time
-# and moves f by 0.8 %, within the stated error; twice widens the interval by 4 %.
+# Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-]. Half takes 25 % more
+# time and moves f by 0.8 %, within the stated error; twice widens the interval by 4 %.
 PIECES_SAMPLING_SHARE = 0.7
 
 # Pieces, at most [-]. Half and twice change nothing.
@@ -57,8 +57,8 @@ FACTORISATIONS_OF_START = 100
 # Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
 LENGTH_OF_SHORT_STRIP = 60.0
 
-# Length [correlation lengths] of the piece on the shortest cells, those of the last level: a third of `PIECE_LENGTH`. Half and
-# twice change nothing on these points, which do not need it.
+# Length [correlation lengths] of the piece on the shortest cells, those of the last level: a third of `PIECE_LENGTH`.
+# Half and twice change nothing on these points, which do not need it.
 LENGTH_OF_LAST_PIECE = 14.0
 
 # Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error. A
@@ -72,8 +72,8 @@ SPEED_MATTERS = 1.0
 
 
 class Piece(tuple[StripSolution, ...]):
-    """A piece of the surface, solved on shorter and shorter cells: twice as long as those of the strips, as long, and half as
-    long each time."""
+    """A piece of the surface, solved on shorter and shorter cells: twice as long as those of the strips, as long, and
+    half as long each time."""
 
     @property
     def on_cells_of_strips(self) -> StripSolution:
@@ -225,8 +225,8 @@ def _refined(
 
 
 def piece_on_quarter_cells(prepared: Prepared, speed: float, slope: float) -> Piece:
-    """Return one short piece at ``speed`` [m/s], down to cells a quarter as long as those of the strips, which have this ``slope``.
-    Raises `ConvergenceError` and `TooManyCellsError`."""
+    """Return one short piece at ``speed`` [m/s], down to cells a quarter as long as those of the strips, which have
+    this ``slope``. Raises `ConvergenceError` and `TooManyCellsError`."""
     return _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
 
 
@@ -247,7 +247,8 @@ def changed_by_pieces(
     prepared: Prepared, numbers: dict[str, float], pieces: Sequence[tuple[StripSolution, StripSolution]]
 ) -> dict[str, float]:
     """Return ``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer
-    and the shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
+    and the shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to
+    f."""
     if not pieces:
         return numbers
     rows = [[numbers_of_strip(prepared, strip.result) for strip in level] for level in zip(*pieces)]

@@ -182,8 +182,9 @@ def lay_out(
     ``map_coarsening`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). ``memo``: as of `Problem` (None: of its own). Raises `TooManyCellsError`
-    for more cells than `MOST_GRID_CELLS`, and `InputError` for a coarsening that does not divide the map.
+    lengths up and down stream (default: `reach`). ``memo``: as of `Problem` (None: of its own). Raises
+    `TooManyCellsError` for more cells than `MOST_GRID_CELLS`, and `InputError` for a coarsening that does not divide
+    the map.
     """
     (nx, ny) = surface.shape
     (fx, fy) = map_coarsening
@@ -225,8 +226,8 @@ def lay_out(
 def _columns_taken(
     surface: Surface, line: LineContact, times: int, ends: tuple[float, float] | None = None
 ) -> np.ndarray:
-    """Return the numbers of the columns of ``surface``, continued, that a grid takes on cells so many ``times`` as long along
-    x; ``ends``: as of `lay_out`."""
+    """Return the numbers of the columns of ``surface``, continued, that a grid takes on cells so many ``times`` as long
+    along x; ``ends``: as of `lay_out`."""
     dx = surface.spacing[0] * times
     upstream, downstream = reach(line, surface.sq) if ends is None else ends
     begins = line.lubricant.inlet_length
@@ -250,7 +251,8 @@ def why_too_many(cells: float) -> str:
 def check_number_of_cells(
     surface: Surface, line: LineContact, map_coarsening: tuple[int, int], ends: tuple[float, float] | None = None
 ) -> None:
-    """Raise `TooManyCellsError` if ``surface`` has more cells than `MOST_GRID_CELLS` on these; arguments as of `lay_out`."""
+    """Raise `TooManyCellsError` if ``surface`` has more cells than `MOST_GRID_CELLS` on these; arguments as of
+    `lay_out`."""
     (fx, fy) = map_coarsening
     (dx, dy) = surface.spacing
     columns = _columns_taken(surface, line, fx, ends).size

@@ -5,8 +5,8 @@ that is one length, the thickness of the boundary film:
 
     shear = f_b p where h < boundary film, the bodies' touching cells among them; the lubricant's own law elsewhere.
 
-The stress of a Newtonian lubricant, or of Carreau's law, has no limit of its own. So that of a film above 50 MPa is at most
-f_b p. The fields do not depend on that length, so f at half and at twice of it costs no solve.
+The stress of a Newtonian lubricant, or of Carreau's law, has no limit of its own. So that of a film above 50 MPa is at
+most f_b p. The fields do not depend on that length, so f at half and at twice of it costs no solve.
 """
 
 from dataclasses import dataclass, field
@@ -28,8 +28,8 @@ PRESSED = 50e6
 
 @dataclass(frozen=True, kw_only=True)
 class LoadSplit:
-    """The load per width [N/m] by what carries it. Parts overlap: ``touching`` is in ``thin``, ``capped`` in ``saturated``;
-    ``thin`` and ``saturated`` have nothing in common, and a film below its limit is in none.
+    """The load per width [N/m] by what carries it. Parts overlap: ``touching`` is in ``thin``, ``capped`` in
+    ``saturated``; ``thin`` and ``saturated`` have nothing in common, and a film below its limit is in none.
 
     Attributes
     ----------
@@ -217,8 +217,8 @@ def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> Surface
 
 
 def change_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lubricant) -> float:
-    """Return the change of f [-] of a ``result`` if its films had the shear stress of another ``lubricant``, which is not
-    Newtonian, as that of the result is not, at the same pressures and gaps; ``sliding``: sliding speed [m/s]."""
+    """Return the change of f [-] of a ``result`` if its films had the shear stress of another ``lubricant``, which is
+    not Newtonian, as that of the result is not, at the same pressures and gaps; ``sliding``: sliding speed [m/s]."""
     stress = stress_with_oil(result, sliding, lubricant)
     return float((stress - result.shear).sum()) * result.spacing[0] / result.pressure.shape[1] / result.load
 
@@ -232,8 +232,8 @@ def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lu
 
 
 def share_moved_by_hardness(pressure: np.ndarray, hardness: float, other: float) -> float:
-    """Return the part of the load that leaves its cells, or comes to those that yield, if the ``hardness`` [Pa] were the
-    ``other`` one; ``pressure`` [Pa]: of the cells, up to the hardness."""
+    """Return the part of the load that leaves its cells, or comes to those that yield, if the ``hardness`` [Pa] were
+    the ``other`` one; ``pressure`` [Pa]: of the cells, up to the hardness."""
     if other < hardness:
         moved = np.maximum(pressure - other, 0.0)
     else:
@@ -249,8 +249,8 @@ def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray)
 
 
 def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
-    """Return the change of f [-] if the stress of a film without a limit above `PRESSED` were at most ``limit`` times the
-    ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
+    """Return the change of f [-] if the stress of a film without a limit above `PRESSED` were at most ``limit`` times
+    the ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
     if not problem.lubricant.has_unlimited_stress:
         return 0.0
     films = (sheared.wet | (sheared.rubbing & ~sheared.thin)) & (pressure > PRESSED)

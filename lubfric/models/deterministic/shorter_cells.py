@@ -45,8 +45,9 @@ from .strip_on_two_grids import (
 # 500. A choice: more solves a few of them, for ten times the work.
 FACTORISATIONS_OF_SHORTER_CELLS = 90
 
-# LU factorisations of a short strip on shorter cells, at most, all from the solution on longer ones [-]: 11 to 36 on 33,000 to
-# 67,000 cells of measured maps, where they converge. A choice: other starts take as many again, and led nowhere.
+# LU factorisations of a short strip on shorter cells, at most, all from the solution on longer ones [-]: 11 to 36 on
+# 33,000 to 67,000 cells of measured maps, where they converge. A choice: other starts take as many again, and led
+# nowhere.
 FACTORISATIONS_OF_LAST_LEVEL = 60
 
 # Part of the change of f on a piece of that length by which it may be off the mean over the surface [-]. A convention.
@@ -56,8 +57,9 @@ ERROR_OF_SHORT_PIECE = 0.5
 # ranges. Half and twice change nothing.
 PIECES_SHARE = 0.6
 
-# Relative error of f above which a short piece goes on to still shorter cells [-]: on a ground map of 78 µm they reduced 50 to 180 %
-# to 2 to 4 % in 3 to 6 s, and 8 % by little in 40 s. A choice: such an f does not tell designs apart.
+# Relative error of f above which a short piece goes on to still shorter cells [-]: on a ground map of 78 µm they
+# reduced 50 to 180 % to 2 to 4 % in 3 to 6 s, and 8 % by little in 40 s. A choice: such an f does not tell designs
+# apart.
 LARGE_ERROR = 0.1
 
 
@@ -65,15 +67,12 @@ LARGE_ERROR = 0.1
 class ShorterCells:
     """What the third and the fourth level show of the effect of shorter cells.
 
-    Attributes
-    ----------
-    pieces : those of the third level; (): it is not needed, or not solved
-    shortest : the piece of the fourth level; empty: it is not needed, or not solved
-    strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
-    sampling_error : of the mean relative change of f on ``pieces``, from place to place
-    change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
-    error : relative error of f that the last cells leave
-    end : why there are no shorter ones
+    Attributes ---------- pieces : those of the third level; (): it is not needed, or not solved shortest : the piece of
+    the fourth level; empty: it is not needed, or not solved strip : the first strip itself on the shortest cells, if
+    the sample refines in place; None: it is not solved on them sampling_error : of the mean relative change of f on
+    ``pieces``, from place to place change : expected relative change of the sliding part of f by short cells where
+    roughness moves, which are not solved error : relative error of f that the last cells leave end : why there are no
+    shorter ones
     """
 
     pieces: tuple[Piece, ...] = ()
@@ -85,8 +84,9 @@ class ShorterCells:
     end: EndOfCells = EndOfCells.NOT_NEEDED
 
     def all_of_sample(self, pairs: Sequence[StripOnTwoGrids]) -> StripSolution | None:
-        """Return the only one of ``pairs`` on its shortest cells, if it is itself the only piece, at its own speed: all numbers
-        of the sample are then those of this solution. None where pieces are other parts of the surface, or there are none."""
+        """Return the only one of ``pairs`` on its shortest cells, if it is itself the only piece, at its own speed: all
+        numbers of the sample are then those of this solution. None where pieces are other parts of the surface, or
+        there are none."""
         if len(pairs) != 1 or len(self.pieces) != 1:
             return None
         last = self.shortest or self.pieces[0]
@@ -187,8 +187,8 @@ def _third_level(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGri
 
 
 def _fourth_level(prepared: Prepared, speed: float, third: _ThirdLevel, slope: float) -> ShorterCells:
-    """Return what one short piece shows on still shorter cells than those of the ``third`` level, if it pays; the strips have
-    this ``slope`` of friction over load [-]."""
+    """Return what one short piece shows on still shorter cells than those of the ``third`` level, if it pays; the
+    strips have this ``slope`` of friction over load [-]."""
     sample = prepared.sample
     tolerance = prepared.scene.numerics.tolerance
     expected = _work_of_last_level(sample, third.pieces[0])
@@ -229,14 +229,15 @@ def _fourth_level(prepared: Prepared, speed: float, third: _ThirdLevel, slope: f
 
 
 def _error_of_short_piece(shortest: Piece, changes: Sequence[float], left: int) -> float:
-    """Return the relative error of f that the cells of the ``shortest`` piece leave, after ``changes`` of f from cells to cells;
-    ``left``: as of `error_by_cells`."""
+    """Return the relative error of f that the cells of the ``shortest`` piece leave, after ``changes`` of f from cells
+    to cells; ``left``: as of `error_by_cells`."""
     at_least = max(_error_of_its_length(shortest), error_of_strip(shortest.on_shortest_cells))
     return math.hypot(max(error_by_cells(changes, left), at_least), _scatter_of_last_change(shortest))
 
 
 def _error_of_its_length(shortest: Piece) -> float:
-    """Return the part of the change of f on the ``shortest`` piece, relative, by which it may be off the mean over the surface."""
+    """Return the part of the change of f on the ``shortest`` piece, relative, by which it may be off the mean over the
+    surface."""
     (before, after) = (strip.result.coefficient for strip in shortest.from_half_cells)
     return ERROR_OF_SHORT_PIECE * abs(1 - before / after)
 
@@ -255,8 +256,8 @@ def _coarsening_of(sample: Sample, strip: StripSolution) -> tuple[int, int]:
 def _solver_of_short_piece(
     prepared: Prepared, speed: float
 ) -> Callable[[tuple[int, int], StripSolution], StripSolution]:
-    """Return the function that solves the first short piece at ``speed`` [m/s] on cells of a coarsening, from a solution on longer
-    ones. Raises `ConvergenceError` and `TooManyCellsError`."""
+    """Return the function that solves the first short piece at ``speed`` [m/s] on cells of a coarsening, from a
+    solution on longer ones. Raises `ConvergenceError` and `TooManyCellsError`."""
 
     def solve(coarsening: tuple[int, int], start: StripSolution) -> StripSolution:
         contact = contact_on_piece(prepared, prepared.sample, 0, coarsening=coarsening, length=LENGTH_OF_LAST_PIECE)
@@ -277,7 +278,8 @@ def _continues_strip(prepared: Prepared) -> bool:
 
 
 def _work_of_last_level(sample: Sample, piece: Piece) -> float:
-    """Return the expected work [s] of the last level, a part of the ``piece`` on all of its cells and on shorter ones."""
+    """Return the expected work [s] of the last level, a part of the ``piece`` on all of its cells and on shorter
+    ones."""
     last = piece.on_shortest_cells
     length = last.result.load_at.size * last.result.spacing[1]
     share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
@@ -285,7 +287,8 @@ def _work_of_last_level(sample: Sample, piece: Piece) -> float:
 
 
 def _strip_on_shorter_cells(prepared: Prepared, speed: float, third: _ThirdLevel) -> ShorterCells:
-    """Return what shorter cells than those of the ``third`` level show on all of a short strip, which is its first piece."""
+    """Return what shorter cells than those of the ``third`` level show on all of a short strip, which is its first
+    piece."""
     strip = third.pieces[0]
     ladder = continued(
         strip,
@@ -309,10 +312,12 @@ def _strip_on_shorter_cells(prepared: Prepared, speed: float, third: _ThirdLevel
 
 
 def _patch_on_shorter_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids, error: float) -> ShorterCells:
-    """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative ``error``.
+    """Return what shorter cells show on all of a patch, whose cells so far (``pair``) leave this estimated relative
+    ``error``.
 
-    Its cells are `shortened` until the estimated error is within ``numerics.tolerance`` (`continued`), with ``numerics.grid =
-    "given"`` down to the map's own; within `MOST_WORK_OF_POINT` in a scene without ``numerics.max_work``.
+    Its cells are `shortened` until the estimated error is within ``numerics.tolerance`` (`continued`), with
+    ``numerics.grid = "given"`` down to the map's own; within `MOST_WORK_OF_POINT` in a scene without
+    ``numerics.max_work``.
     """
     scene = prepared.scene
     has_all = scene.numerics.grid == "given"

@@ -27,8 +27,8 @@ SOLVE_RESIDUAL = 1e-5
 # LU factorisations from a state nearby, at most [-]: a bound. Half and twice change nothing.
 FACTORISATIONS_FROM_NEARBY = 40
 
-# LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up to
-# 27.
+# LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up
+# to 27.
 FACTORISATIONS_FROM_DRY = 50
 
 # LU factorisations of steps in time, at most [-]: a bound. Half and twice change nothing.
@@ -64,8 +64,8 @@ THIN_OFFSET = 2e6
 # 1 % at most.
 DRY_TOLERANCE = 1e-4
 
-# Distance behind the middle over sqrt(2 R h), from which on a start has ruptured [-]: a little behind where a rigid film
-# ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
+# Distance behind the middle over sqrt(2 R h), from which on a start has ruptured [-]: a little behind where a rigid
+# film ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
 START_RUPTURE = 0.55
 
 # Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`)
@@ -125,10 +125,10 @@ def solve_point(
 ) -> DeterministicResult:
     """Solve gap, pressure and friction of ``problem`` on its own grid.
 
-    The `WAYS` are tried in turn until one converges; together they take at most ``most`` factorisations. ``report.notes``
-    says which one it was. From ``start``, a state on the same grid, Newton's method ends after ``most_from_start`` factorisations, or
-    where a step is shorter than ``least``. Converged when the largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises
-    `ConvergenceError` with report and result.
+    The `WAYS` are tried in turn until one converges; together they take at most ``most`` factorisations.
+    ``report.notes`` says which one it was. From ``start``, a state on the same grid, Newton's method ends after
+    ``most_from_start`` factorisations, or where a step is shorter than ``least``. Converged when the largest of
+    `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and result.
     """
     work = Work(most)
     tried: list[tuple[str, NewtonResult]] = []
@@ -224,7 +224,8 @@ def _from_start(search: PointSearch) -> Iterator[NewtonResult]:
 
 
 def _from_dry_contact(search: PointSearch) -> Iterator[NewtonResult]:
-    """Yield the results from the dry contact, lifted by the film that is expected there or by parts of it (`_lifts`)."""
+    """Yield the results from the dry contact, lifted by the film that is expected there or by parts of it
+    (`_lifts`)."""
     most = FACTORISATIONS_FROM_DRY // 2 if is_starved(search.problem) else FACTORISATIONS_FROM_DRY
     yield from _from_lifts(search, _lifts(search.problem), most)
 
@@ -528,8 +529,8 @@ class GridTransfer:
 
 
 def _transfer(coarse: Problem, problem: Problem, result: DeterministicResult) -> GridTransfer:
-    """Return the way from the ``result`` on ``coarse`` cells to the finer ones of ``problem``: where these are among the coarse ones,
-    and their kind and fill there."""
+    """Return the way from the ``result`` on ``coarse`` cells to the finer ones of ``problem``: where these are among
+    the coarse ones, and their kind and fill there."""
     old = result.state
     (ny,) = problem.heights.shape[1:]
     (nx_old, ny_old) = coarse.heights.shape
@@ -580,8 +581,8 @@ def _pressed_start(transfer: GridTransfer, dry: ContactResult, dry_coarse: Conta
 
 
 def _corrected_dry_start(transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult) -> State:
-    """Return the ``dry`` contact of the new grid plus what the film changes of ``dry_coarse``, that of the old one (as in a
-    full approximation scheme: A. Brandt, Math. Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X).
+    """Return the ``dry`` contact of the new grid plus what the film changes of ``dry_coarse``, that of the old one (as
+    in a full approximation scheme: A. Brandt, Math. Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X).
 
     That has large residuals and yet is a few full Newton steps from the solution, or it leads nowhere.
     """
@@ -592,7 +593,8 @@ def _corrected_dry_start(transfer: GridTransfer, dry: ContactResult, dry_coarse:
 def _on_dry_contact(
     transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult, *, pressure: FloatArray
 ) -> State:
-    """Return the state of this ``pressure`` at the approach of the old solution, changed by that of the dry contacts."""
+    """Return the state of this ``pressure`` at the approach of the old solution, changed by that of the dry
+    contacts."""
     return transfer.state(
         pressure=pressure,
         kind=np.where((transfer.kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID),

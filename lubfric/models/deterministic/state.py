@@ -147,8 +147,8 @@ def extrapolated_mass(
     steps are equal), by `MOST_EXTRAPOLATED` of itself, or that part, at most. With the moment ``earlier`` than that,
     `CURVATURE` of the second difference is added: the differences of such masses from step to step are those of BDF3.
 
-    So the Couette flow is limited in space. Without the limit a cell whose gap a summit fills would give off more than it
-    has.
+    So the Couette flow is limited in space. Without the limit a cell whose gap a summit fills would give off more than
+    it has.
     """
     change = part * (mass - before)
     if earlier is not None:
@@ -171,8 +171,8 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
 
 
 def admissible(problem: Problem, state: State) -> State:
-    """Return ``state`` without suction, overfilled cells, pressures above P_u and negative dents: each such cell obeys the
-    equation of its other kind.
+    """Return ``state`` without suction, overfilled cells, pressures above P_u and negative dents: each such cell obeys
+    the equation of its other kind.
 
     - A fluid cell under suction ruptures if no neighbour is under much stronger suction. So does a touching cell under suction.
       A ruptured cell that is full carries pressure again.

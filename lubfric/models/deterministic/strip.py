@@ -46,8 +46,8 @@ SECOND_LOAD = 1.03
 # the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
-# Ratio of successive changes from grid to grid of a single strip [-], below which the last may be small by chance. A choice: on the
-# ridges of a measured map f changes by -5.2, +.3 and +.5 %.
+# Ratio of successive changes from grid to grid of a single strip [-], below which the last may be small by chance. A
+# choice: on the ridges of a measured map f changes by -5.2, +.3 and +.5 %.
 LEAST_FALL = 0.1
 
 # Ratio of successive changes from grid to grid, at most, where their series ends at native cells [-]: 1.7 to 2.2 was
@@ -58,13 +58,15 @@ GROWING = 2.0
 # 0.9 µm of the built-in surface.
 UNKNOWN_RATIO = 0.6
 
-# Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01 %.
+# Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01
+# %.
 COLUMNS_OF_A_PLACE = 2
 
 
 @dataclass(frozen=True, kw_only=True)
 class StripSolution:
-    """A strip that is solved by the deterministic model: at rest, or moving (`MovingStripSolution`), under one contract.
+    """A strip that is solved by the deterministic model: at rest, or moving (`MovingStripSolution`), under one
+    contract.
 
     Attributes
     ----------
@@ -113,8 +115,8 @@ class StripSolution:
         return change_of(longer.result, self.result)
 
     def coefficient_with_oil(self, name: str, end: int) -> float | None:
-        """Return f if the films were sheared as the oil at an ``end``, 0 or 1, of the range of the input of this ``name``;
-        None where that is not known without a solve."""
+        """Return f if the films were sheared as the oil at an ``end``, 0 or 1, of the range of the input of this
+        ``name``; None where that is not known without a solve."""
         return None
 
     def at_inputs(self, scene: Scene, speed: float, make_map: Callable[[], Surface]) -> DeterministicResult:
@@ -166,7 +168,8 @@ def solve_strip(
     cells twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the
     residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2,
     where both bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU
-    factorisations, at most; ``most_from_start``: of these from ``start``. ``memo``: what the bodies' other problems share (`Problem`).
+    factorisations, at most; ``most_from_start``: of these from ``start``. ``memo``: what the bodies' other problems
+    share (`Problem`).
 
     Raises `InputError` and `ConvergenceError`.
     """
@@ -277,7 +280,8 @@ def problem_of(
 
 
 def line_contact_of(scene: Scene, speed: float) -> LineContact:
-    """Return the line contact of ``scene`` at ``speed`` [m/s], whose lubricant flows with the viscosity of its heated inlet."""
+    """Return the line contact of ``scene`` at ``speed`` [m/s], whose lubricant flows with the viscosity of its heated
+    inlet."""
     return replace(scene.line_contact(abs(speed)), lubricant=film_lubricant(scene, speed))
 
 
@@ -299,19 +303,20 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
 
 
 def cautious_changes(changes: Sequence[float]) -> tuple[float, float]:
-    """Return the last two of the ``changes`` of f from grid to grid of a single strip, as its `error_by_cells` takes them.
+    """Return the last two of the ``changes`` of f from grid to grid of a single strip, as its `error_by_cells` takes
+    them.
 
-    The last is `LEAST_FALL` of the one before at least, since two effects may cancel in it by chance; the one before is no larger
-    than makes their ratio the least that is expected (`CHANGE_RATIOS`).
+    The last is `LEAST_FALL` of the one before at least, since two effects may cancel in it by chance; the one before is
+    no larger than makes their ratio the least that is expected (`CHANGE_RATIOS`).
     """
     last = max(changes[-1], LEAST_FALL * changes[-2])
     return min(changes[-2], last / CHANGE_RATIOS[0]), last
 
 
 def expected_error_after(changes: Sequence[float], halvings: int, left: float = math.inf) -> float:
-    """Return the expected relative error of f after so many ``halvings`` of the last of several grids, if its ``changes`` from grid to
-    grid go on to fall as the last two did (`CHANGE_RATIOS`; `UNKNOWN_RATIO` from one change). ``left``: as of `error_by_cells`,
-    before these halvings."""
+    """Return the expected relative error of f after so many ``halvings`` of the last of several grids, if its
+    ``changes`` from grid to grid go on to fall as the last two did (`CHANGE_RATIOS`; `UNKNOWN_RATIO` from one change).
+    ``left``: as of `error_by_cells`, before these halvings."""
     ratio = UNKNOWN_RATIO
     if len(changes) > 1 and changes[-2] > 0:
         ratio = min(max(changes[-1] / changes[-2], CHANGE_RATIOS[0]), CHANGE_RATIOS[1])

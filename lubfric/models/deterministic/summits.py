@@ -94,8 +94,8 @@ def attenuated(surface: Surface, wave: float) -> Surface:
 def summits_over_time(
     problem: Problem, bodies: Sequence[RoughBody], control: SummitControl
 ) -> Callable[[float], np.ndarray]:
-    """Return the function of a time [s] that gives the control [m] at each place along y of ``problem`` (ny,) then, while
-    ``bodies`` move."""
+    """Return the function of a time [s] that gives the control [m] at each place along y of ``problem`` (ny,) then,
+    while ``bodies`` move."""
     half_width = max(problem.line.half_width, 0.5001 * problem.spacing[0])
     inside = np.abs(problem.x) < half_width
     pressure = np.sqrt(1.0 - (problem.x[inside] / half_width) ** 2)

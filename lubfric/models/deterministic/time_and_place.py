@@ -32,10 +32,9 @@ class Places(NamedTuple):
 class TimeAndPlace:
     """Numbers of moments that follow each other, at all places along y (n, ny).
 
-    ``friction``, ``load``, ``contact_load``, ``couette`` [N/m]: the third of what rubs with f_b, the last of the film that the
-    sliding shears; ``summits`` [m]: the control.
-    ``travelled``: half-widths between two moments, of the film or the slowest rough body; ``spacing`` [m]: along y.
-    ``mean_load`` [N/m]: of all places at every moment.
+    ``friction``, ``load``, ``contact_load``, ``couette`` [N/m]: the third of what rubs with f_b, the last of the film
+    that the sliding shears; ``summits`` [m]: the control. ``travelled``: half-widths between two moments, of the film
+    or the slowest rough body; ``spacing`` [m]: along y. ``mean_load`` [N/m]: of all places at every moment.
     """
 
     friction: np.ndarray
@@ -78,7 +77,8 @@ class TimeAndPlace:
         in_time, along_y = self.block_counts(correlation_length)
         way = self.friction.shape[0] // in_time * self.travelled / TIME_LENGTH
         width = self.friction.shape[1] // along_y * self.spacing / correlation_length
-        # where a rough body rests, time is one block without neighbours, and all that scatters does so from place to place
+        # where a rough body rests, time is one block without neighbours, and all that scatters does so from place to
+        # place
         of_time = max(1 - SHARED_LENGTH / way, 0.1) if way > 0 else 1.0
         return of_time * max(1 - SHARED_LENGTH / width, 0.1)
 
@@ -127,7 +127,8 @@ def mean_over_blocks(
 
 
 def least_blocks(control: SummitControl | None) -> int:
-    """Return the number of blocks below which the standard error of a mean over them is not known, with this ``control``."""
+    """Return the number of blocks below which the standard error of a mean over them is not known, with this
+    ``control``."""
     return LEAST_FREEDOM + (2 if control is None or not control.is_known else 3)
 
 

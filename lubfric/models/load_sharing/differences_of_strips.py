@@ -30,7 +30,8 @@ def control_for(balanced: BalancedSample) -> ControlVariate | None:
 
 
 def control_variate_of(balanced: BalancedSample) -> ControlVariate:
-    """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not differ."""
+    """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not
+    differ."""
     prepared = balanced.prepared
     raw_balance = balanced.raw_balance
     response = balanced.response

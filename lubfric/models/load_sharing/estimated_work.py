@@ -49,8 +49,8 @@ SOLVES_ON_MORE = 5
 # Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
 SOLVES_OF_REFERENCE = 7
 
-# Films and contacts of the balance at an end of the range of an input, which starts from that at the input itself [-]. Measured in
-# the paper's contact: 1 to 2.
+# Films and contacts of the balance at an end of the range of an input, which starts from that at the input itself [-].
+# Measured in the paper's contact: 1 to 2.
 SOLVES_AT_END = 2
 
 # Sizes of cells on which a piece is solved, at least. It follows from `cell_effect`: one change of f needs two.
@@ -186,8 +186,8 @@ def _times_by_heat(scene: Scene) -> float:
 
 
 def _ends(scene: Scene) -> int:
-    """Return how many points the ends of the input ranges of ``scene`` take, which the answer solves on its first strips: f at each
-    end, and at the inputs themselves to begin with and to compare with."""
+    """Return how many points the ends of the input ranges of ``scene`` take, which the answer solves on its first
+    strips: f at each end, and at the inputs themselves to begin with and to compare with."""
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     return ends + 2 if ends else 0
 

@@ -103,8 +103,8 @@ class Response:
 class MomentResponse:
     """Reaction of f at a moment of a run in time to an error of the gap or of the film.
 
-    Film and contact are assumed to have time to divide the load anew, as in a `Response`; a film that is squeezed follows
-    more slowly, and then f changes less. Each part of the friction is in proportion to its load.
+    Film and contact are assumed to have time to divide the load anew, as in a `Response`; a film that is squeezed
+    follows more slowly, and then f changes less. Each part of the friction is in proportion to its load.
 
     Attributes
     ----------
@@ -169,8 +169,9 @@ def slopes_of(
     thickness: np.ndarray,
     shape: np.ndarray | None = None,
 ) -> Slopes:
-    """Return the `Slopes` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] on the ``width`` [m] under
-    ``thickness`` and ``shape`` [m] (nx,): secants to a load 5 % larger, or smaller where the contact carries no more."""
+    """Return the `Slopes` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] on the ``width`` [m]
+    under ``thickness`` and ``shape`` [m] (nx,): secants to a load 5 % larger, or smaller where the contact carries no
+    more."""
     step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
     more = rough_contact.close(thickness, load + step, contact_state, shape)
     area = more.real_contact_area_fraction - contact_state.real_contact_area_fraction
@@ -231,8 +232,8 @@ def respond(
 def point_numbers(
     forces: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float
 ) -> dict[str, float]:
-    """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``forces``: those of
-    the ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
+    """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``forces``: those of the
+    ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {
         "coefficient": forces.coefficient,
         "contact_load": loads[1],

@@ -31,8 +31,8 @@ SPOT = 1.75
 
 
 def hertz_mean_gap(rough_contact: HalfSpaceContact, contact_state: ContactState) -> np.ndarray:
-    """Return G(y) [m] (ny,), the gap at every place along the line, averaged over the nominal area A. ``contact_state`` has
-    fields."""
+    """Return G(y) [m] (ny,), the gap at every place along the line, averaged over the nominal area A. ``contact_state``
+    has fields."""
     assert contact_state.fields is not None
     return rough_contact.weight @ np.maximum(contact_state.fields.gap, 0.0) / rough_contact.weight.sum()
 
@@ -44,13 +44,14 @@ def line_load(rough_contact: HalfSpaceContact, contact_state: ContactState) -> n
 
 
 def gap_influence(gap: FloatArray, load: FloatArray, slope: float) -> np.ndarray:
-    """Return I(y) [m] (ny,) for a ``gap`` G(y) [m], a ``load`` P(y) [N/m] and a ``slope`` dG/dP [m²/N] at a given film."""
+    """Return I(y) [m] (ny,) for a ``gap`` G(y) [m], a ``load`` P(y) [N/m] and a ``slope`` dG/dP [m²/N] at a given
+    film."""
     return gap - slope * (load - load.mean())
 
 
 def effective_contacts(line_load: FloatArray, step: float, correlation_length: float) -> float:
-    """Return (sum P)²/sum P² over short blocks, about one asperity contact each: how many equally loaded asperity contacts
-    would carry the load as unevenly as these."""
+    """Return (sum P)²/sum P² over short blocks, about one asperity contact each: how many equally loaded asperity
+    contacts would carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
     loads = line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
     square = float(np.sum(np.square(loads)))
@@ -80,8 +81,8 @@ class Scatter:
 
 
 def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
-    """Return the `Scatter` of ``rough_contact``, ``count`` strips of ``sample`` joined, in ``balance``. Of a mirrored map
-    only half counts."""
+    """Return the `Scatter` of ``rough_contact``, ``count`` strips of ``sample`` joined, in ``balance``. Of a mirrored
+    map only half counts."""
     state = balance.contact_state
     response = balance.response
     assert state.fields is not None and response is not None
@@ -162,8 +163,8 @@ def moment_error(
     width: float,
     correlation_length: float,
 ) -> float:
-    """Return the relative standard error of f at one moment, from a ``contact_state`` with fields on ``rough_contact``: 0
-    without contact, NaN if the line is too short.
+    """Return the relative standard error of f at one moment, from a ``contact_state`` with fields on ``rough_contact``:
+    0 without contact, NaN if the line is too short.
 
     ``response``: that of the moment; ``width`` [m]: of the contact; ``correlation_length`` [m]: along the line.
     """

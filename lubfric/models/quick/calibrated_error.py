@@ -1,11 +1,11 @@
 """The error of f on long cells, as a campaign of solved cases shows it.
 
-The campaign (``python -m verification calibration``) solves random contacts by the deterministic model on long cells and
-on short ones. ln of the ratio of the sliding parts of f has a mean, the bias b·x, and a standard deviation σ = exp(s·y),
-both linear in a few `features` of the solution; C is the covariance of b. The 95 % bounds are bias ± k sqrt(σ² + x·C x),
-so that they widen where few cases are like the contact. k is the 95 % quantile of what was seen on kinds of cases (fluids,
-lays, loads, slide-roll ratios) that were excluded from the fit, one kind at a time (conformal prediction). calibration.toml
-has the numbers.
+The campaign (``python -m verification calibration``) solves random contacts by the deterministic model on long cells
+and on short ones. ln of the ratio of the sliding parts of f has a mean, the bias b·x, and a standard deviation σ =
+exp(s·y), both linear in a few `features` of the solution; C is the covariance of b. The 95 % bounds are bias ± k
+sqrt(σ² + x·C x), so that they widen where few cases are like the contact. k is the 95 % quantile of what was seen on
+kinds of cases (fluids, lays, loads, slide-roll ratios) that were excluded from the fit, one kind at a time (conformal
+prediction). calibration.toml has the numbers.
 """
 
 import math
@@ -32,7 +32,8 @@ OUTSIDE_OF_CHOSEN = (
 # The name of this model (`lubfric.models.quick.QuickModel.name`).
 QUICK = "quick"
 
-# What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
+# What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic
+# model was checked for.
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
 WIDENED = "use f with its model-form error, which includes this increase"
 
@@ -43,8 +44,8 @@ NEGLIGIBLE_DISTANCE = 0.01
 # Factor on the bounds far outside the range of the campaign. A choice: nothing was measured there.
 MOST_WIDENING = 3.0
 
-# How far [-], in ln, an oil with a shear law that no solved case has is taken to be outside: the bounds are twice as wide. Not
-# measured.
+# How far [-], in ln, an oil with a shear law that no solved case has is taken to be outside: the bounds are twice as
+# wide. Not measured.
 DISTANCE_OF_OTHER_OIL = 1.0
 
 OTHER_LAWS = "number of shear laws of the oil that no solved case has"
@@ -119,8 +120,8 @@ class Outside:
     is_thicker: bool = False
 
     def violation_in(self, scene: Scene) -> Violation:
-        """Return what a result of ``scene``, and `lubfric info` before it, says of it: a note where the scene does not name the
-        quick model, because the user has not chosen it then."""
+        """Return what a result of ``scene``, and `lubfric info` before it, says of it: a note where the scene does not
+        name the quick model, because the user has not chosen it then."""
         is_named = scene.numerics.model == QUICK
         factor = 1e-9 if self.unit == "Pa" else 1.0
         recommendation = WIDENED if self.is_thicker else BY_DETERMINISTIC

@@ -67,8 +67,8 @@ NEAR_AT_REST = 0.03
 # these.
 LOOSER_EFFORT = replace(TIGHT, residual=1e-3, carries_imbalance=True, linear=0.1, discarded_again=1.6)
 
-# Cells in the Hertz half-width along x, at least, where roughness rests: as in the solved cases. Where it moves, there are as
-# many as in a correlation length.
+# Cells in the Hertz half-width along x, at least, where roughness rests: as in the solved cases. Where it moves, there
+# are as many as in a correlation length.
 LONG_CELLS_OF_HALF_WIDTH = 2.0
 
 # ln of f on cells twice as long, at most, that a feature takes as it is: beyond it, and where they have no solution,
@@ -93,7 +93,8 @@ LEAST_SLIDING = 1e-9
 # cases decide the fit.
 MOST_BY_FILM = 4.0
 
-# Change below which the cells of the boundary film are few and show little. Chosen with the features, by the likelihood.
+# Change below which the cells of the boundary film are few and show little. Chosen with the features, by the
+# likelihood.
 LITTLE_BY_FILM = 0.1
 
 # Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it. A choice: less
@@ -111,17 +112,17 @@ LEAST_NEAR = 0.01
 # choice: more lets single cases decide the fit.
 MOST_ROLLING = 20.0
 
-# Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by the
-# likelihood of kinds that were left out: with the part itself in the place of the logarithm, eleven cases above 1 had six
-# times the scatter that they have.
+# Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by
+# the likelihood of kinds that were left out: with the part itself in the place of the logarithm, eleven cases above 1
+# had six times the scatter that they have.
 LITTLE_ROLLING = 0.1
 
 
 def map_coarsening_at_rest(
     scene: Scene, *, spacing: Sequence[float], rows: int, lengths: Sequence[float]
 ) -> tuple[int, int]:
-    """Return the length of the long cells in those of a map of roughness at rest, of this ``spacing`` [m] and with so many
-    ``rows`` along y, along both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
+    """Return the length of the long cells in those of a map of roughness at rest, of this ``spacing`` [m] and with so
+    many ``rows`` along y, along both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
     longest = min(lengths[0] / CELLS_AT_REST[0], scene.bodies.half_width / LONG_CELLS_OF_HALF_WIDTH)
     along = max(1, math.floor(longest / spacing[0] * (1 + ROUNDING)))
     return along, _divisor(rows, lengths[1] / CELLS_AT_REST[1] / spacing[1])
@@ -268,10 +269,10 @@ def solve_moving(
 
 
 def numbers_for_features(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -> dict[str, float]:
-    """Return the numbers of a strip by which `features` are found: parts of f, f at half and at twice the boundary film,
-    and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
-    (NaN: not known); ``coarse``, the cell along x over the correlation ``length`` [m], and ``smooth``, 1 where heights are
-    smooth over the cells of their map (`is_smooth_over_cells`), else 0."""
+    """Return the numbers of a strip by which `features` are found: parts of f, f at half and at twice the boundary
+    film, and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest,
+    ``by_motion`` (NaN: not known); ``coarse``, the cell along x over the correlation ``length`` [m], and ``smooth``, 1
+    where heights are smooth over the cells of their map (`is_smooth_over_cells`), else 0."""
     result = pair.resolved.result
     is_moving = pair.resolved.moves
     longer = pair.longer.result

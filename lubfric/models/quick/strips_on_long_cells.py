@@ -107,9 +107,10 @@ class StripsOnLongCells:
     def numbers(self) -> dict[str, float]:
         """The numbers of the strips without their bias, which is one of the sliding part of f.
 
-        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain. A bias that
-        raises f ends where asperities carry all of the load, because their stress is the larger one. Where asperities have the
-        stress of the film, or cannot carry less, the remainder is attributed to the shear of the film. So the forces add up to f.
+        The bias of f is attributed to the asperity load; f_b on asperities and the mean stress of the film remain. A
+        bias that raises f ends where asperities carry all of the load, because their stress is the larger one. Where
+        asperities have the stress of the film, or cannot carry less, the remainder is attributed to the shear of the
+        film. So the forces add up to f.
         """
         numbers = self.levels.numbers
         if self.scene.motion.slide_roll_ratio == 0:
@@ -261,8 +262,8 @@ def _solve_pair(
 
 
 def _is_usual(on_long_cells: StripsOnLongCells) -> bool:
-    """Return whether the error by the cells is one that solved cases have: within their range, no larger than that of nine in ten,
-    and with no target that the scene sets in place of the default."""
+    """Return whether the error by the cells is one that solved cases have: within their range, no larger than that of
+    nine in ten, and with no target that the scene sets in place of the default."""
     tolerance = on_long_cells.scene.numerics.model_tolerance
     return (
         tolerance == Numerics().model_tolerance

@@ -55,12 +55,12 @@ OF_VISCOSITY_LAW = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}
 # less warns of more films.
 THICK_FILM = 0.1
 
-# Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning, no
-# number.
+# Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning,
+# no number.
 STRIP_SHARE = 0.2
 
-# Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured: a
-# convention.
+# Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured:
+# a convention.
 SPIKE = 1.05
 
 # What to give so that the film is deflected by the total load.
@@ -85,8 +85,8 @@ BY_TOLERANCE = "numerics.tolerance sets this limit"
 # formula is fitted to such points.
 LARGE_NUMERICAL_ERROR = 0.2
 
-# Numerical error of f, relative, from which on f is only an order of magnitude [-]. A convention: f may be half as large,
-# or half as large again.
+# Numerical error of f, relative, from which on f is only an order of magnitude [-]. A convention: f may be half as
+# large, or half as large again.
 ERROR_OF_ORDER_OF_MAGNITUDE = 0.5
 
 # Digits of a slip in percent that a user writes, at most: a ratio that follows from two speeds has more. A choice.
@@ -174,12 +174,13 @@ def peak_hertz_pressure(scene: Scene) -> float:
 
 
 def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterator[Violation]:
-    """Yield the violation by the highest film pressure ``peak`` [Pa]. ``place``: of a rough film, where that is, as text; "": the
-    film is smooth.
+    """Yield the violation by the highest film pressure ``peak`` [Pa]. ``place``: of a rough film, where that is, as
+    text; "": the film is smooth.
 
-    No oil is liquid above 10 GPa. This is severe where the film is smooth or the peak Hertz pressure is above it, and a warning
-    where asperities that do not yield press the film that much. Above the limit of the viscosity law it is a warning where the
-    peak Hertz pressure is, and no limiting stress bounds the friction; local peaks of a rough film are small parts of it.
+    No oil is liquid above 10 GPa. This is severe where the film is smooth or the peak Hertz pressure is above it, and a
+    warning where asperities that do not yield press the film that much. Above the limit of the viscosity law it is a
+    warning where the peak Hertz pressure is, and no limiting stress bounds the friction; local peaks of a rough film
+    are small parts of it.
     """
     limit = OF_VISCOSITY_LAW.get(scene.lubricant.viscosity_law, math.inf)
     if peak > NO_LIQUID and place and peak_hertz_pressure(scene) <= NO_LIQUID:
@@ -243,8 +244,8 @@ def _name_of_peak(scene: Scene, peak: float) -> str:
 
 
 def _spike(scene: Scene, peak: float, limit: float, place: str) -> tuple[list[str], list[str]]:
-    """Return where a ``peak`` pressure [Pa] of the film above its ``limit`` [Pa] is and what causes it, and what lowers it, as
-    texts."""
+    """Return where a ``peak`` pressure [Pa] of the film above its ``limit`` [Pa] is and what causes it, and what lowers
+    it, as texts."""
     facts = []
     advice = []
     hertz_peak = peak_hertz_pressure(scene)
@@ -323,8 +324,8 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
 
 
 def violations_by_inlet_of_moment(scene: Scene, speed: float) -> Iterator[Violation]:
-    """Yield the violations by a starved inlet at one moment of a run in time, whose ``scene`` has the values of the moment:
-    `violations_by_inlet` of the flow by closed forms in steady motion at ``speed`` [m/s]."""
+    """Yield the violations by a starved inlet at one moment of a run in time, whose ``scene`` has the values of the
+    moment: `violations_by_inlet` of the flow by closed forms in steady motion at ``speed`` [m/s]."""
     if speed != 0 and scene.lubricant.inlet_length is not None:
         line = scene.line_contact(abs(speed))
         yield from violations_by_inlet(scene, line, line.starved_film, math.inf)
@@ -499,15 +500,16 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
 
 
 def consequence_of_numerical_error(error: float, origin_of_limit: str = BY_TOLERANCE) -> str:
-    """Return what a numerical ``error`` of f, relative, above its limit means; ``origin_of_limit``: what sets the limit."""
+    """Return what a numerical ``error`` of f, relative, above its limit means; ``origin_of_limit``: what sets the
+    limit."""
     if error > ERROR_OF_ORDER_OF_MAGNITUDE:
         return "the error is so large that f is only an order of magnitude"
     return f"{origin_of_limit}; the interval of f, where it is known, includes the error"
 
 
 def violations_by_numerical_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
-    """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): an
-    interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
+    """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known):
+    an interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
     if error is not None and error > tolerance:
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,

@@ -61,16 +61,16 @@ FILTERED = "check the order of its lines, or give surface.s_filter"
 # Correlation lengths that a generated patch should be wide. Not measured: a convention.
 LEAST_PATCH_LENGTHS = 10
 
-# Correlation lengths that the windows of a measured map should be wide: the fewest from which the error by the sample is
-# known (statistics.py).
+# Correlation lengths that the windows of a measured map should be wide: the fewest from which the error by the sample
+# is known (statistics.py).
 LEAST_LENGTHS_FOR_INTERVAL = LEAST_BLOCKS * LEAST_BLOCK_LENGTH
 
 # Parameters of a straight line over the load of blocks, at least: those that friction follows without a control
 # (`lubfric.models.deterministic`). By definition.
 FEWEST_PARAMETERS = 2
 
-# Share [%] of Sq² that a form explains from which the map shows the form and not the roughness: its Sq is then twice that of the
-# roughness. A convention.
+# Share [%] of Sq² that a form explains from which the map shows the form and not the roughness: its Sq is then twice
+# that of the roughness. A convention.
 MOST_OF_FORM = 75.0
 
 # Deviation of the Sq of strips from that of their map, at most, that is no violation whatever the sample explains. A
@@ -87,7 +87,8 @@ UNCUT_LENGTH = 1 + 1e-9
 
 
 def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
-    """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change."""
+    """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to
+    change."""
     return (
         f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
         f"{_ways_to_interval(scene, sample)}"
@@ -108,8 +109,8 @@ def why_too_few_blocks(
     size: tuple[float, float],
     size_of_block: tuple[float, float],
 ) -> str:
-    """Return that the ``sample`` that moves through the contact has so few ``blocks``, along the motion and along y, fewer than
-    the ``needed`` ones, that it gives no interval, and what to change.
+    """Return that the ``sample`` that moves through the contact has so few ``blocks``, along the motion and along y,
+    fewer than the ``needed`` ones, that it gives no interval, and what to change.
 
     ``size``: of the surface that passes, in half-widths of the Hertz strip and in correlation lengths along y;
     ``size_of_block``: the least one of a block.
@@ -151,8 +152,8 @@ def expected_without_interval(scene: Scene, sample: Sample, *, includes_motion: 
 def _ways_to_interval(scene: Scene, sample: Sample) -> str:
     """Return what gives an interval to a ``sample`` that is too short for one, as text.
 
-    To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off; to omit
-    ``numerics.sampling`` only where strips give one.
+    To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off;
+    to omit ``numerics.sampling`` only where strips give one.
     """
     keys = ["numerics.sampling"] if requests_patch(scene) and _strips_give_interval(scene, sample) else []
     extended = [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
@@ -164,8 +165,8 @@ def _ways_to_interval(scene: Scene, sample: Sample) -> str:
 
 
 def _strips_give_interval(scene: Scene, sample: Sample) -> bool:
-    """Return whether strips of the surface, in place of one patch, are long enough for an interval: generated ones always, and
-    windows of a measured map where the patch alone has enough of them."""
+    """Return whether strips of the surface, in place of one patch, are long enough for an interval: generated ones
+    always, and windows of a measured map where the patch alone has enough of them."""
     if not is_measured(scene):
         return True
     with_strips = scene.with_(**{name: {"extension": "none"} for _, name in rough_bodies(scene)})
@@ -184,8 +185,8 @@ def _is_long_enough(scene: Scene, sample: Sample) -> bool:
 
 
 def beforehand(scene: Scene, sample: Sample, surface: Surface) -> tuple[Violation, ...]:
-    """Return the violations for values far from the usual, for the bodies, for the map, and for the ``surface`` that the
-    ``sample`` states."""
+    """Return the violations for values far from the usual, for the bodies, for the map, and for the ``surface`` that
+    the ``sample`` states."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
     lengths = math.nan if math.isnan(cells[1]) else surface.size[1] / sample.correlation_lengths[1]
     of_map = violations_by_map(rms_slope(surface)[2], lengths, cells, _longer_map(scene, sample))
@@ -233,8 +234,8 @@ def _runs_on_patch(scene: Scene) -> bool:
 
 
 def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: bool) -> Iterator[Violation]:
-    """Yield the violations by a form that is left in the ``maps``, of each rough body or of all: measured ones, or those
-    that were given to `lubfric.prepare`."""
+    """Yield the violations by a form that is left in the ``maps``, of each rough body or of all: measured ones, or
+    those that were given to `lubfric.prepare`."""
     sections = ("surface", "counterface")
     for section, rough, surface in zip(sections, (scene.surface, scene.counterface), maps):
         file = None if has_given_map or rough is None else rough.file
@@ -483,6 +484,7 @@ def _expected_violations_by_film(scene: Scene, speed: float, thickness: float) -
 
 
 def _separates(scene: Scene, thickness: float) -> bool:
-    """Return whether a film of ``thickness`` [m] is certain to carry the whole load: the roughness is known, and lower."""
+    """Return whether a film of ``thickness`` [m] is certain to carry the whole load: the roughness is known, and
+    lower."""
     sq = stated_sq(scene)
     return sq is not None and thickness > SEPARATING * sq

@@ -46,12 +46,12 @@ def with_forces_of_film(numbers: dict[str, T], load: float) -> dict[str, T]:
 
 
 def with_divided_sliding(numbers: dict[str, float], before: dict[str, float], load: float) -> dict[str, float]:
-    """Return ``numbers``, of a point that has another ``coefficient`` than ``before``, with friction forces that add up to it
-    times the ``load`` [N].
+    """Return ``numbers``, of a point that has another ``coefficient`` than ``before``, with friction forces that add up
+    to it times the ``load`` [N].
 
-    The film has what the asperity contacts leave. Where that would be against the sliding friction ``before``, asperity load and
-    forces of asperities and film change in proportion to it. Where there was none, or the load does not suffice, the film keeps
-    its sliding part and the rolling part changes.
+    The film has what the asperity contacts leave. Where that would be against the sliding friction ``before``, asperity
+    load and forces of asperities and film change in proportion to it. Where there was none, or the load does not
+    suffice, the film keeps its sliding part and the rolling part changes.
     """
     changed = with_forces_of_film(numbers, load)
     sliding = changed["boundary_force"] + changed["couette_force"]
@@ -68,7 +68,7 @@ def with_divided_sliding(numbers: dict[str, float], before: dict[str, float], lo
 
 
 def with_rest_rolling(numbers: dict[str, float], load: float) -> dict[str, float]:
-    """Return ``numbers`` with the rolling part that makes all friction forces add up to ``coefficient`` times the ``load``
-    [N], and with the shear force of the film."""
+    """Return ``numbers`` with the rolling part that makes all friction forces add up to ``coefficient`` times the
+    ``load`` [N], and with the shear force of the film."""
     shear_force = load * numbers["coefficient"] - numbers["boundary_force"]
     return numbers | {"shear_force": shear_force, "rolling_force": shear_force - numbers["couette_force"]}

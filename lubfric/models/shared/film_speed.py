@@ -29,7 +29,8 @@ def film_and_exponents(line: LineContact) -> tuple[float, float, float]:
 
 
 def speed_of(scene: Scene, thickness: float) -> float:
-    """Return the speed [m/s] at which the expected film of the total load is ``thickness`` [m]. Raises `ConvergenceError`."""
+    """Return the speed [m/s] at which the expected film of the total load is ``thickness`` [m]. Raises
+    `ConvergenceError`."""
 
     def excess(log_speed: float) -> float:
         return math.log(scene.line_contact(math.exp(log_speed)).expected_film / thickness)

@@ -37,8 +37,8 @@ NEGLIGIBLE_HEAT = 1e-9
 # Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
 TYPICAL = (343.15, 0.035)
 
-# Part of what heat does to f that counts as its error [-]. Not measured: published factors of the inlet differ by as much
-# (`InletHeat.other`).
+# Part of what heat does to f that counts as its error [-]. Not measured: published factors of the inlet differ by as
+# much (`InletHeat.other`).
 PART_IN_ERROR = 0.5
 
 # Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1. A choice between them.
@@ -199,8 +199,8 @@ class PointHeat:
 
 
 class PressurisedFilm(Protocol):
-    """What the heat of a film depends on: the nodes, positions x [m], pressure [Pa] and film thickness [m], (n,) each, the
-    entrainment speed [m/s], and where the film ruptures [m]. A `lubfric.film.EHLResult` is one."""
+    """What the heat of a film depends on: the nodes, positions x [m], pressure [Pa] and film thickness [m], (n,) each,
+    the entrainment speed [m/s], and where the film ruptures [m]. A `lubfric.film.EHLResult` is one."""
 
     @property
     def x(self) -> FloatArray: ...
@@ -315,8 +315,8 @@ def _nodes(
 
 
 def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: FloatArray) -> Surroundings:
-    """Return what is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
-    the ``boundary_stress`` [Pa] of the asperity contacts beside it, each (n,)."""
+    """Return what is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers,
+    and the ``boundary_stress`` [Pa] of the asperity contacts beside it, each (n,)."""
     speed = abs(speed)
     ratio = scene.motion.slide_roll_ratio
     surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
@@ -363,8 +363,8 @@ def error_by_heat(heat: Heat, by_inlet: float) -> float:
 
 
 def heat_error_in_words(heat: Heat, by_inlet: float, tolerance: float, *, is_at_most: bool) -> str:
-    """Return of what two parts the `error_by_heat` is made, as text; "" where it is within the ``tolerance`` on f, or where one of
-    the parts is 0. ``is_at_most``: ``by_inlet`` is not solved, but the largest there is."""
+    """Return of what two parts the `error_by_heat` is made, as text; "" where it is within the ``tolerance`` on f, or
+    where one of the parts is 0. ``is_at_most``: ``by_inlet`` is not solved, but the largest there is."""
     within, inlet = _parts_of_error(heat, by_inlet)
     if within + inlet <= tolerance or not (within and inlet):
         return ""

@@ -1,7 +1,7 @@
 """The largest friction coefficient that the limits of the shear stress allow.
 
-At no place is the shear stress larger than both f_b p, that of a boundary film, and the stress of the oil in the thinnest
-film above a boundary film. So the sliding part of f is at most the mean of the larger of both over the load.
+At no place is the shear stress larger than both f_b p, that of a boundary film, and the stress of the oil in the
+thinnest film above a boundary film. So the sliding part of f is at most the mean of the larger of both over the load.
 """
 
 import math
@@ -34,8 +34,8 @@ def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, slidin
     ``peak`` [Pa] that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
 
     The mean of the larger of both stresses is taken over the Hertz pressure, and the ratio of that of the oil to the
-    pressure from the mean pressure to `MOST_PRESSURE`. A film without a limit of its own is limited to f_b p or, if that is more and
-    the oil's limit is not stated, to the upper end of `LIMIT_RANGE` times p.
+    pressure from the mean pressure to `MOST_PRESSURE`. A film without a limit of its own is limited to f_b p or, if
+    that is more and the oil's limit is not stated, to the upper end of `LIMIT_RANGE` times p.
     """
     if oil.has_unlimited_stress:
         return boundary_friction if oil.is_limited_by_boundary_friction else max(boundary_friction, LIMIT_RANGE[1])
@@ -67,8 +67,8 @@ def at_largest_ends(scene: Scene, sliding: float) -> Scene:
 
 
 def largest_at_load(scene: Scene, load: float, sliding: float) -> float:
-    """Return the `largest_of_oil` of ``scene``, whose ranges do not count, under a ``load`` [N] that slides at ``sliding``
-    [m/s]; infinite where it does not slide."""
+    """Return the `largest_of_oil` of ``scene``, whose ranges do not count, under a ``load`` [N] that slides at
+    ``sliding`` [m/s]; infinite where it does not slide."""
     if sliding == 0:
         return math.inf
     bodies = scene.bodies

@@ -23,13 +23,10 @@ OTHER_PARTS = "{}; without that part the model-form error is {}"
 class ModelErrorPart:
     """A part of the model-form error of f.
 
-    Attributes
-    ----------
-    sides : relative errors at 95 %, towards 0 and away from it
-    cause : what it comes from, as text
-    recommendation : what reduces it, as text; "": nothing that a user may give
-    is_of_input : whether it comes from an input that is not known, which no other model knows either
-    is_usual : whether it is usual for the model that answers (docs/models.md), so that a note reports it instead of a warning
+    Attributes ---------- sides : relative errors at 95 %, towards 0 and away from it cause : what it comes from, as
+    text recommendation : what reduces it, as text; "": nothing that a user may give is_of_input : whether it comes from
+    an input that is not known, which no other model knows either is_usual : whether it is usual for the model that
+    answers (docs/models.md), so that a note reports it instead of a warning
     """
 
     sides: tuple[float, float]
@@ -62,10 +59,11 @@ def sides_of_parts(parts: Sequence[ModelErrorPart]) -> Sides:
 def violations_by_model_error(
     error: float, *, tolerance: float, f: float, has_interval: bool, parts: Sequence[ModelErrorPart] = ()
 ) -> Iterator[Violation]:
-    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``: a note where
-    this is because of parts that are usual for the model.
+    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``: a
+    note where this is because of parts that are usual for the model.
 
-    Where f is near 0, the warning states the error in f itself. ``has_interval``: whether f has an interval, which includes the error.
+    Where f is near 0, the warning states the error in f itself. ``has_interval``: whether f has an interval, which
+    includes the error.
     """
     if not error > tolerance:
         return

@@ -22,18 +22,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Prepared(FieldsOnly, Renamed, Shown):
-    """A scene prepared by `lubfric.prepare`. It is accepted wherever a scene is, and safe to share: only what it remembers
-    (`Memo`) changes, and that changes no result.
+    """A scene prepared by `lubfric.prepare`. It is accepted wherever a scene is, and safe to share: only what it
+    remembers (`Memo`) changes, and that changes no result.
 
-    Attributes
-    ----------
-    scene : the scene
-    surface : the map whose statistics are stated (`Sample.stated_map`): the first strips, joined; a patch on native cells
-    rough_contact : the contact on the first strips, on the cells of ``sample``; of a patch too
-    contact_work : counted work [s] of that contact, which each use counts: nothing of it is counted by `lubfric.prepare`
-    violations : assumptions of the model that bodies and map violate, known before any solve
-    sample : what represents the infinite rough line contact
-    has_given_map, has_given_contact : whether a map, or a contact, was given to `lubfric.prepare`
+    Attributes ---------- scene : the scene surface : the map whose statistics are stated (`Sample.stated_map`): the
+    first strips, joined; a patch on native cells rough_contact : the contact on the first strips, on the cells of
+    ``sample``; of a patch too contact_work : counted work [s] of that contact, which each use counts: nothing of it is
+    counted by `lubfric.prepare` violations : assumptions of the model that bodies and map violate, known before any
+    solve sample : what represents the infinite rough line contact has_given_map, has_given_contact : whether a map, or
+    a contact, was given to `lubfric.prepare`
     """
 
     scene: Scene
@@ -60,12 +57,14 @@ class Prepared(FieldsOnly, Renamed, Shown):
 
     @property
     def is_given_or_measured(self) -> bool:
-        """Whether heights or contact come from outside: given to `lubfric.prepare`, or read from a file of the scene."""
+        """Whether heights or contact come from outside: given to `lubfric.prepare`, or read from a file of the
+        scene."""
         return self.is_given or is_measured(self.scene)
 
     @property
     def has_one_map_for_all_bodies(self) -> bool:
-        """Whether one map was given to `lubfric.prepare` for all bodies, so that the part of each in it is not known."""
+        """Whether one map was given to `lubfric.prepare` for all bodies, so that the part of each in it is not
+        known."""
         return self.has_given_map and not self.sample.bodies
 
     @cached_property
@@ -128,8 +127,8 @@ def contact_on_joined_strips(prepared: Prepared, sample: Sample, count: int) -> 
 
 
 def contact_at_inputs(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
-    """Return the contact of ``scene``, which differs from the prepared one in inputs only, on the first ``count`` strips
-    of ``sample``."""
+    """Return the contact of ``scene``, which differs from the prepared one in inputs only, on the first ``count``
+    strips of ``sample``."""
     return sample.contact(scene, count, partial(operator_on, prepared.memo, prepared.scene))
 
 

@@ -10,8 +10,8 @@ import numpy as np
 
 
 class Sides(NamedTuple):
-    """An error of f ``towards`` 0 and ``away`` from it, relative or in f itself; NaN: not known. In records it is a plain
-    tuple."""
+    """An error of f ``towards`` 0 and ``away`` from it, relative or in f itself; NaN: not known. In records it is a
+    plain tuple."""
 
     towards: float
     away: float
@@ -44,8 +44,8 @@ def added_sides(parts: Collection[tuple[float, float]]) -> Sides:
 
 
 def added_changes(changes: Iterable[tuple[float, ...]]) -> tuple[float, float]:
-    """Return how far the ranges of several inputs move f down and up, from the ``changes`` of f at the ends of each: the
-    root of the sum of squares, in each direction for itself."""
+    """Return how far the ranges of several inputs move f down and up, from the ``changes`` of f at the ends of each:
+    the root of the sum of squares, in each direction for itself."""
     ends = [(min(0.0, *each), max(0.0, *each)) for each in changes]
     return math.hypot(*(down for down, _ in ends)), math.hypot(*(up for _, up in ends))
 

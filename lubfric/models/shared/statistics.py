@@ -179,8 +179,8 @@ def strips_for_error(
 
 
 def area_needed(error: float, target: float, *, has_ended: bool) -> float:
-    """Return how many times the area of a surface brings a standard ``error`` on it within ``target``, as it falls with the
-    root of the area: 1 where it is within, or where the surface has not ended; NaN where the error is not known."""
+    """Return how many times the area of a surface brings a standard ``error`` on it within ``target``, as it falls with
+    the root of the area: 1 where it is within, or where the surface has not ended; NaN where the error is not known."""
     if not has_ended:
         return 1.0
     return max((error / target) ** 2, 1.0) if math.isfinite(error) else math.nan

@@ -5,9 +5,9 @@ f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the lo
 of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the total load
 over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
 under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
-known, mu is scaled to what it has; s follows Aihara's law from what it has by load sharing, and by models of the resolved gap
-s/(1 - s) follows a power of λ that solved contacts show. Before there is one, both have a range (`POWERS`, `SHEARS`), and so has the
-change of f: it holds that of the result by any model.
+known, mu is scaled to what it has; s follows Aihara's law from what it has by load sharing, and by models of the
+resolved gap s/(1 - s) follows a power of λ that solved contacts show. Before there is one, both have a range (`POWERS`,
+`SHEARS`), and so has the change of f: it holds that of the result by any model.
 """
 
 import math
@@ -39,13 +39,14 @@ WARMER = 10.0
 # f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
 
-# Aihara's law of the asperity load ratio: exp(-`AIHARA_FACTOR` λ^`AIHARA_POWER`). As printed by the sources of docs/theory.md.
+# Aihara's law of the asperity load ratio: exp(-`AIHARA_FACTOR` λ^`AIHARA_POWER`). As printed by the sources of
+# docs/theory.md.
 AIHARA_FACTOR = 1.8
 AIHARA_POWER = 1.2
 
-# Power of λ with which the load on asperities over that on the film changes, where roughness rests and where it moves [-]. Fitted
-# with the pressure-viscosity coefficient times the pressure to 237 and 209 contacts solved by the deterministic model
-# (verification.campaigns.calibration): -3.47 ± .17 and -2.72 ± .15.
+# Power of λ with which the load on asperities over that on the film changes, where roughness rests and where it moves
+# [-]. Fitted with the pressure-viscosity coefficient times the pressure to 237 and 209 contacts solved by the
+# deterministic model (verification.campaigns.calibration): -3.47 ± .17 and -2.72 ± .15.
 LOAD_RATIO_AT_REST = -3.5
 LOAD_RATIO_IN_MOTION = -2.7
 
@@ -74,17 +75,18 @@ UPSTREAM = 4.0
 # follows from Reynolds' equation (Swift-Stieber).
 REYNOLDS_RUPTURE = 0.475
 
-# Friction of asperities over f_b between which the correlation length of the roughness counts [-]. A choice: the ends of mixed
-# lubrication, where f is that of the film or f_b whatever the length is.
+# Friction of asperities over f_b between which the correlation length of the roughness counts [-]. A choice: the ends
+# of mixed lubrication, where f is that of the film or f_b whatever the length is.
 MIXED = (0.02, 0.98)
 
 # Part of f by asperities below which the film makes it. A choice: it selects a sentence.
 LEAST_ASPERITY_PART = 0.1
 
 
-# Power of the pressure-viscosity coefficient with which the load on asperities over that on the film falls at a given film [-]: asperities
-# press the film between them far above the Hertz pressure. A choice: with it the bound holds at 23 contacts, at rest and rolling, of Λ
-# from 0.02 to 6, solved by the quick model with both ends of the range; where they change f by 1 % or more, it is 1.1 to 15 times the change.
+# Power of the pressure-viscosity coefficient with which the load on asperities over that on the film falls at a given
+# film [-]: asperities press the film between them far above the Hertz pressure. A choice: with it the bound holds at 23
+# contacts, at rest and rolling, of Λ from 0.02 to 6, solved by the quick model with both ends of the range; where they
+# change f by 1 % or more, it is 1.1 to 15 times the change.
 LOAD_RATIO_BY_ALPHA = -1.0
 
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
@@ -108,12 +110,9 @@ SHEARS = (0.5, 1.0, 2.0)
 class UnmodelledEffect:
     """An effect that is not modelled.
 
-    Attributes
-    ----------
-    what : the effect, as text
-    change : likely change of f, relative [-]; NaN where it is not known
-    recommendation : what to do
-    is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient: then the change is the largest one either way
+    Attributes ---------- what : the effect, as text change : likely change of f, relative [-]; NaN where it is not
+    known recommendation : what to do is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient:
+    then the change is the largest one either way
     """
 
     what: str
@@ -186,10 +185,11 @@ def unmodelled_effects(
     ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
     ``numerics.tolerance`` is not reported.
 
-    ``friction_parts``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``: the scene of
-    the run in time of which ``scene`` is one moment, which holds the ranges and tables that a moment has not;
-    ``includes_motion``: whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`);
-    ``way_to_motion``: what to do to include it, as text; "": `stated_way_to_motion`.
+    ``friction_parts``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``:
+    the scene of the run in time of which ``scene`` is one moment, which holds the ranges and tables that a moment has
+    not; ``includes_motion``: whether the model has the motion of the roughness
+    (`lubfric.models.Model.includes_motion`); ``way_to_motion``: what to do to include it, as text; "":
+    `stated_way_to_motion`.
     """
     tolerance = scene.numerics.tolerance
     effects = _all_effects(
@@ -204,8 +204,9 @@ def _largest_first(effects: list[AnyEffect]) -> tuple[AnyEffect, ...]:
 
 
 def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
-    """Return in a sentence by how much the range of an estimated pressure-viscosity coefficient changes f at most at ``count`` points of
-    a study, where, and what to give; "" where the coefficient is given, or the changes are below the tolerance.
+    """Return in a sentence by how much the range of an estimated pressure-viscosity coefficient changes f at most at
+    ``count`` points of a study, where, and what to give; "" where the coefficient is given, or the changes are below
+    the tolerance.
 
     ``effects_by_point``: the effects that are not modelled, by the number of the point, from 1.
     """
@@ -224,8 +225,8 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
 
 
 def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]]) -> str:
-    """Return by how much the range of an estimated pressure-viscosity coefficient changes f at most at the points of a fit, whose
-    parameters have this error too, and what to give; "" as of `alpha_of_points_in_words`."""
+    """Return by how much the range of an estimated pressure-viscosity coefficient changes f at most at the points of a
+    fit, whose parameters have this error too, and what to give; "" as of `alpha_of_points_in_words`."""
     largest = max(map(_largest_by_alpha, effects_of_points), default=0.0)
     if not largest:
         return ""
@@ -236,7 +237,8 @@ def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]
 
 
 def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
-    """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is none."""
+    """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is
+    none."""
     largest = _largest_by_alpha(effects)
     if not largest:
         return ""
@@ -247,8 +249,8 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
 
 
 def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffect]) -> str:
-    """Return what the range of an estimated pressure-viscosity coefficient means for f at ``speed`` [m/s], before there is a result,
-    and what to do, in two sentences; "" where none of the ``effects`` is of this coefficient."""
+    """Return what the range of an estimated pressure-viscosity coefficient means for f at ``speed`` [m/s], before there
+    is a result, and what to do, in two sentences; "" where none of the ``effects`` is of this coefficient."""
     largest = _largest_by_alpha(effects)
     if not largest:
         return ""
@@ -263,8 +265,8 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
 
 
 def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
-    """Return how the range of an estimated pressure-viscosity coefficient changes f in a few words beside the interval of f; "" as of
-    `alpha_of_points_in_words`."""
+    """Return how the range of an estimated pressure-viscosity coefficient changes f in a few words beside the interval
+    of f; "" as of `alpha_of_points_in_words`."""
     largest = _largest_by_alpha(effects)
     if not largest:
         return ""
@@ -275,7 +277,8 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
 
 
 def _largest_by_alpha(effects: Sequence[UnmodelledEffect] | Sequence[ExpectedEffect]) -> float:
-    """Return the largest change of f by an estimated pressure-viscosity coefficient among the ``effects``; 0 where there is none."""
+    """Return the largest change of f by an estimated pressure-viscosity coefficient among the ``effects``; 0 where
+    there is none."""
     return max((effect.largest_change for effect in effects if effect.is_of_alpha), default=0.0)
 
 
@@ -498,7 +501,8 @@ def _of_film(
 
 
 def _ends_of_alpha(scene: Scene) -> tuple[float, ...]:
-    """Return the least and the largest pressure-viscosity coefficient [1/Pa] of measured oils; () where the coefficient is given."""
+    """Return the least and the largest pressure-viscosity coefficient [1/Pa] of measured oils; () where the coefficient
+    is given."""
     lubricant = scene.lubricant
     if lubricant.oil is None or lubricant.temperature is None:
         return ()
@@ -516,11 +520,12 @@ def _bound_by_alpha(
     of_rubbing: float,
     by_film: float | None,
 ) -> float:
-    """Return a bound of the relative change of f, either way, by another pressure-viscosity coefficient ``alpha`` [1/Pa].
+    """Return a bound of the relative change of f, either way, by another pressure-viscosity coefficient ``alpha``
+    [1/Pa].
 
-    A larger one makes the film thicker, so that asperities carry less, and raises the shear stress of the film. These two changes of f
-    have opposite signs, so the larger one bounds what is left of them; which one is larger, closed forms do not show. The shear is
-    at most that of the closed form, unless that of the result is larger.
+    A larger one makes the film thicker, so that asperities carry less, and raises the shear stress of the film. These
+    two changes of f have opposite signs, so the larger one bounds what is left of them; which one is larger, closed
+    forms do not show. The shear is at most that of the closed form, unless that of the result is larger.
     """
     before = _parts(scene, sq, speed)
     after = _parts(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), sq, speed)
@@ -562,8 +567,8 @@ def _scaled(
     *,
     by_film: float | None,
 ) -> tuple[float, float]:
-    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: the share by Aihara's
-    law with the λ that gives it there, or s/(1 - s) by the power ``by_film`` of λ; and mu in proportion."""
+    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: the share
+    by Aihara's law with the λ that gives it there, or s/(1 - s) by the power ``by_film`` of λ; and mu in proportion."""
     if not f_b:
         return 0.0, after[1] / before[1] * friction_parts[1]
     shares = [_within(parts[0] / f_b) for parts in (before, after, friction_parts)]

@@ -127,8 +127,8 @@ class Violation(Renamed):
 
     @property
     def kind(self) -> Kind:
-        """What violations have in common that one sentence may report together: the assumption, the quantity, whether they are
-        severe, or notes, and on which side of the limit they are."""
+        """What violations have in common that one sentence may report together: the assumption, the quantity, whether
+        they are severe, or notes, and on which side of the limit they are."""
         return self.assumption, self.what, self.severe, self.is_note, self.value > self.limit
 
     @property
@@ -262,15 +262,15 @@ def _groups(points: Iterable[tuple[Place, Iterable[Violation]]]) -> list[list[tu
 
 
 def _rank(violations: Sequence[Violation]) -> tuple[bool, float]:
-    """Return by what ``violations`` of one kind are sorted: severe ones first, then by the size of their effect on f, where that is
-    known."""
+    """Return by what ``violations`` of one kind are sorted: severe ones first, then by the size of their effect on f,
+    where that is known."""
     effects = [violation.effect for violation in violations if math.isfinite(violation.effect)]
     return not any(violation.severe for violation in violations), -max(effects, default=0.0)
 
 
 def _worst(violations: Sequence[Violation]) -> Violation:
-    """Return that of ``violations`` of one kind whose words hold for all: that with the largest effect on f if this is known of
-    all, else that with the value farthest beyond the limit."""
+    """Return that of ``violations`` of one kind whose words hold for all: that with the largest effect on f if this is
+    known of all, else that with the value farthest beyond the limit."""
     if all(math.isfinite(violation.effect) for violation in violations):
         return max(violations, key=lambda violation: violation.effect)
     return max(violations, key=lambda violation: -violation.value if violation.is_below else violation.value)
@@ -341,8 +341,8 @@ class GatheredTexts:
 def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts]:
     """Return one text for each assumption that is violated anywhere, as `gathered`, from the violations of each row of
     a table, with the point whose value is farthest beyond its limit; consequence and recommendation are those of the
-    worst one, with the points where they are the same, if not all. Points are named by their number, from 1. Those that change f the most
-    are the first, then those of the most points."""
+    worst one, with the points where they are the same, if not all. Points are named by their number, from 1. Those that
+    change f the most are the first, then those of the most points."""
     lines = []
     groups = [dict(group) for group in _groups(enumerate(rows, 1))]
     for group in sorted(groups, key=lambda group: (*_rank([*group.values()]), -len(group))):
@@ -378,8 +378,8 @@ def _farthest_in_table(group: dict[int, Violation]) -> tuple[int, Violation]:
 
 
 def _range_in_table(group: dict[int, Violation]) -> str:
-    """Return the smallest and the largest value of a ``group`` with the number of the one farthest beyond its limit, or the one
-    value of all."""
+    """Return the smallest and the largest value of a ``group`` with the number of the one farthest beyond its limit, or
+    the one value of all."""
     (at_worst, worst) = _farthest_in_table(group)
     ordered = _in_order(group)
     ends = [ordered[end][1].value_in_words for end in (0, -1)] if ordered else []

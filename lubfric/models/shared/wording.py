@@ -15,14 +15,14 @@ INVISIBLE = 1e-5
 # convention.
 MOST_RELATIVE = 1.0
 
-# f below which it is near 0 [-]: as large is the rolling resistance of a film, beside which sliding friction is small. A
-# convention.
+# f below which it is near 0 [-]: as large is the rolling resistance of a film, beside which sliding friction is small.
+# A convention.
 NEAR_ZERO = 5e-3
 
 
 def percent(value: float, digits: int = 2) -> str:
-    """Return a ratio as text with so many ``digits`` (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody
-    can see, "not known" for NaN."""
+    """Return a ratio as text with so many ``digits`` (all of 100 and more) and a percent sign; "< 0.001 %" for what
+    nobody can see, "not known" for NaN."""
     if math.isnan(value):
         return "not known"
     if value >= 0.995:
@@ -51,8 +51,8 @@ def distinct_texts(value: float, other: float, text_of: Callable[[float, int], s
 
 
 def percent_of_sides(sides: tuple[float, float], largest: float) -> str:
-    """Return a relative error with different ``sides`` as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of both
-    sides, which is alone known where these are NaN."""
+    """Return a relative error with different ``sides`` as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of
+    both sides, which is alone known where these are NaN."""
     towards, away = sides
     if not (math.isfinite(towards) and math.isfinite(away)) or percent(towards) == percent(away):
         return percent(largest)

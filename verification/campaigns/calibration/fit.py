@@ -34,14 +34,14 @@ BIAS = {"rest": ("one", "cells"), "rolling": ("one", "narrowed", "summits")}
 # Features of ln of its standard deviation.
 SPREAD = {"rest": ("one", "ln cells", "ln film", "ln below"), "rolling": ("one", "ln film", "ln rolling", "ln near")}
 
-# What cells shorter than those of a reference at rest would still change of ln f, over what these have changed from the long
-# ones: ln f moves by .17 of its change before when the cells are halved (276 cases on three lengths), .2 in all.
+# What cells shorter than those of a reference at rest would still change of ln f, over what these have changed from the
+# long ones: ln f moves by .17 of its change before when the cells are halved (276 cases on three lengths), .2 in all.
 REMAINING = 0.2
 
 # Slide-roll ratio up to which the mass along x is followed along the lubricant, by third order.
 FAST = 1.0
-# Of Student's t in the likelihood: nearly normal. Chosen by the half-width on kinds that were left out, where f hangs on the
-# boundary film: 6, 12, 40 and 1000 give 21, 20, 18 and 17 %, and as many of these cases are inside (97 %).
+# Of Student's t in the likelihood: nearly normal. Chosen by the half-width on kinds that were left out, where f hangs
+# on the boundary film: 6, 12, 40 and 1000 give 21, 20, 18 and 17 %, and as many of these cases are inside (97 %).
 FREEDOM = 100.0
 PRIOR = 2.0  # inverse variance of the normal prior of the coefficients of the bias, about 0
 SPREAD_PRIOR = 0.25  # the same of the coefficients of ln σ, but the first
@@ -62,8 +62,8 @@ LONGEST_CASE = 60.0  # s: processor time of a case on long cells, at most
 
 @dataclass(frozen=True)
 class Solved:
-    """One case: its row as text, the numbers of `quick`, and ln of the sliding part of f over that on long cells; ``left``:
-    the part of it that the cells of the reference leave."""
+    """One case: its row as text, the numbers of `quick`, and ln of the sliding part of f over that on long cells;
+    ``left``: the part of it that the cells of the reference leave."""
 
     row: dict[str, str]
     numbers: dict[str, float]
@@ -72,7 +72,8 @@ class Solved:
 
     @property
     def reference_error(self) -> float:
-        """The error of ln f of the reference by its cells, at 95 %; 0 where roughness rests, where ``left`` tells it."""
+        """The error of ln f of the reference by its cells, at 95 %; 0 where roughness rests, where ``left`` tells
+        it."""
         return cells_of_reference(self.row).error if self.row["motion"] == "rolling" else 0.0
 
     @property
@@ -110,8 +111,8 @@ def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solve
     """Return the case of a ``row`` with the numbers of `quick` on the cells that the model takes, of those that are
     ``known``; None where it is not among them, or a sliding part of f is not positive.
 
-    What the cells of the reference would still change is taken of its change from the longest cells, where the roughness
-    rests, and where it moves that which the deterministic model expects (`CellsInMotion`).
+    What the cells of the reference would still change is taken of its change from the longest cells, where the
+    roughness rests, and where it moves that which the deterministic model expects (`CellsInMotion`).
     """
     by_cells = {numbers["per_length"]: numbers for numbers in known}
     lengths = PER_LENGTH[row["motion"]]
@@ -147,8 +148,9 @@ def cells_of_reference(row: dict[str, str]) -> CellsInMotion:
 
 
 def solve_numbers(file: Path, motion: str, *, workers: int = 1, seconds: float = math.inf) -> None:
-    """Solve the usable cases of a ``motion`` that are missing in the table of numbers in ``file`` on long cells by today's
-    model, on so many ``workers``, and append each when it is solved; after so many ``seconds`` none is begun."""
+    """Solve the usable cases of a ``motion`` that are missing in the table of numbers in ``file`` on long cells by
+    today's model, on so many ``workers``, and append each when it is solved; after so many ``seconds`` none is
+    begun."""
     begun = time.monotonic()
     known = {(*key(row), float(row["per_length"])) for row in table_file.rows(file)}
     cases = [(*key(row), cells) for row in usable(motion) for cells in PER_LENGTH[motion]]
@@ -166,8 +168,8 @@ def solve_numbers(file: Path, motion: str, *, workers: int = 1, seconds: float =
 
 
 def numbers_of_case(motion: str, case: tuple[int, int, float]) -> PlainRow:
-    """Return the row of a ``case``: its seed, its repeat, and the cells along x in a correlation length; {} where it has no
-    solution."""
+    """Return the row of a ``case``: its seed, its repeat, and the cells along x in a correlation length; {} where it
+    has no solution."""
     (seed, repeat, per_length) = case
     try:
         with limited(LONGEST_CASE):
@@ -271,7 +273,8 @@ def design(solved: Sequence[Solved]) -> Design:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """A kind of case that was left out of the fit: its errors over σ, σ, and the errors of their references by cells."""
+    """A kind of case that was left out of the fit: its errors over σ, σ, and the errors of their references by
+    cells."""
 
     kind: str
     standard: np.ndarray
@@ -304,7 +307,8 @@ def quantile_of(parts: Sequence[HeldOut]) -> float:
 
 
 def usual_error(parts: Sequence[HeldOut], quantile: float) -> float:
-    """Return the half-width of the bounds of f that `USUAL` of the cases do not exceed, with this ``quantile`` of the errors over σ."""
+    """Return the half-width of the bounds of f that `USUAL` of the cases do not exceed, with this ``quantile`` of the
+    errors over σ."""
     return float(np.quantile(np.concatenate([part.half_widths(quantile) for part in parts]), USUAL))
 
 
@@ -330,8 +334,8 @@ def lines(motion: str, solved: Sequence[Solved]) -> Iterator[str]:
 
 
 def rolling_errors(solved: Sequence[Solved]) -> np.ndarray:
-    """Return the errors of the part of f by the gradient of the pressure, over the square root of that part times the sum
-    of both parts."""
+    """Return the errors of the part of f by the gradient of the pressure, over the square root of that part times the
+    sum of both parts."""
     parts = [
         (float(case.row["det_rolling"]), case.numbers["rolling"], case.numbers["coefficient"] - case.numbers["rolling"])
         for case in solved
@@ -355,9 +359,10 @@ def ranges(solved: Sequence[Solved]) -> dict[str, np.ndarray]:
 
 HEAD = """# The error of f on long cells, fitted to the tables of verification/campaigns/calibration by
 # python -m verification.campaigns.calibration fit: ln of the ratio of the sliding parts of f has the mean `bias` times
-# features, whose coefficients have the `covariance`, and the standard deviation exp(`spread` times features); `quantile`
-# times both together is the half-width of 95 % (lubfric/models/quick/calibrated_error.py). `usual_error`: that of f which
-# nine cases in ten do not exceed. `rolling`: the relative error of the other part of f, at 95 %. Do not edit by hand.
+# features, whose coefficients have the `covariance`, and the standard deviation exp(`spread` times features);
+# `quantile` times both together is the half-width of 95 % (lubfric/models/quick/calibrated_error.py). `usual_error`:
+# that of f which nine cases in ten do not exceed. `rolling`: the relative error of the other part of f, at 95 %. Do not
+# edit by hand.
 """
 
 
