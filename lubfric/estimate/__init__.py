@@ -5,9 +5,9 @@ The way of a point, in the order of the modules:
 1. `friction` checks the call, limits the work and hands the point on.
 2. `choice` finds the model that answers, and why: it asks the models of `lubfric.models.MODELS`, the cheapest first.
 3. `solve_to_tolerance` asks one model for more strips and shorter cells until the tolerances are met.
-4. `build_result` builds the one `FrictionResult` (`result`) from what the model answers (`ModelAnswer`): `uncertainty_of_f`
-   makes the interval, to which `ranges` adds what the ranges of the inputs change, `power`, `full_load` and `methods`
-   give power, lambda ratio and papers.
+4. `build_result` builds the one `FrictionResult` (`result`) from what the model answers (`ModelAnswer`):
+   `uncertainty_of_f` makes the interval, to which `ranges` adds what the ranges of the inputs change, `power`,
+   `full_load` and `methods` give power, lambda ratio and papers.
 
 `work_of_point` estimates beforehand what a point will take. Nothing here knows how a model solves: the contract is
 `lubfric.models.contract`, and a test holds that no module imports a model at run time.

@@ -119,8 +119,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 
     - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
     - if it has a severe violation, so that f means nothing by any model (those `OF_ONE_MODEL` excepted);
-    - if the next model declines (`Model.why_declined`), does not converge, needs too many cells, or finds by its first steps that
-      it takes more than `Model.most_strip_work_in_auto`.
+    - if the next model declines (`Model.why_declined`), does not converge, needs too many cells, or finds by its first
+      steps that it takes more than `Model.most_strip_work_in_auto`.
 
     A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of
     those that take one.

@@ -129,8 +129,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     coefficient : f, of which the parts are relative errors
     interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
         Student's t with ``freedom`` degrees of freedom
-    interval_without_sampling : where ``sampling`` is not known, the interval by all other parts alone, which is too narrow;
-        NaN otherwise
+    interval_without_sampling : where ``sampling`` is not known, the interval by all other parts alone, which is too
+        narrow; NaN otherwise
     tolerance : relative requested standard error
     notes : remarks on these errors
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
@@ -140,8 +140,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
     inputs_in_interval : keys of the inputs whose ranges the interval contains
-    cut : why the interval is narrower than the budget says, as text: a limit of the shear stress, or the sense of the sliding,
-        excludes what is beyond (``notes`` has the numbers)
+    cut : why the interval is narrower than the budget says, as text: a limit of the shear stress, or the sense of the
+        sliding, excludes what is beyond (``notes`` has the numbers)
     """
 
     coefficient: float = math.nan

@@ -33,8 +33,8 @@ class PointWorkEstimate:
     seconds : processor time [s]
     shared : the parts of it that other points are spared
     fine_fields_seconds : processor time [s] of fields on fine cells, if they are requested
-    slow_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
-        effect
+    slow_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or
+        has little effect
     longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     """
 

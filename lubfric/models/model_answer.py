@@ -106,8 +106,8 @@ class AnswerErrors:
     model_error : of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
     by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
     parts_of_model : what the model-form error consists of, each with its cause; (): not known
-    of_numbers : of the numbers, by name: the standard error of the sample together with the numerical error, which is that
-        of the number where it is known, else ``numerical``; without the model-form error
+    of_numbers : of the numbers, by name: the standard error of the sample together with the numerical error, which is
+        that of the number where it is known, else ``numerical``; without the model-form error
     why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor
         0, and of some by name
     notes : remarks on these errors

@@ -5,10 +5,11 @@ surface, so that a longer sample contains a shorter one. A model requests strips
 
 What it does with them depends on four facts of the surface and the contact, not on the class of the sample:
 
-- `Sample.represents_more`: whether the strips stand for a larger surface. Then f scatters with the choice of strips, and
-  other strips show by how much; else nothing scatters, and no control and no reference points of other strips exist.
-- `Sample.refines_in_place`: whether shorter cells show the same strip, down to native ones. Else strips on other cells are
-  others, and pieces of the surface show what shorter cells change.
+- `Sample.represents_more`: whether the strips stand for a larger surface. Then f scatters with the choice of strips,
+  and other strips show by how much; else nothing scatters, and no control and no reference points of other strips
+  exist.
+- `Sample.refines_in_place`: whether shorter cells show the same strip, down to native ones. Else strips on other cells
+  are others, and pieces of the surface show what shorter cells change.
 - `Sample.is_resolved`: whether cells of the surface are solved at all. A contact curve has no places along the line to
   compare, and no gap for a film to flow in.
 - `Sample.is_homogeneous`: whether strips differ by chance alone. Windows of a measured map may also differ because the
@@ -49,7 +50,8 @@ class Sample(ABC):
     has_exact_sq : whether every strip has the Sq of the surface
     is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
     represents_more : whether its strips stand for a larger surface; False: they are all of it
-    refines_in_place : whether shorter cells, down to native ones, are those of the same strip; a piece is then all of it
+    refines_in_place : whether shorter cells, down to native ones, are those of the same strip; a piece is then all of
+        it
     is_resolved : whether the rough half-space is solved on the cells of its strips; False: the contact is a curve, made
         of independent asperities, or from outside
     bodies : of two rough bodies the part of each, where the sample is cut from maps of both; () else

@@ -175,16 +175,17 @@ def moments(
     problem_at : of a time [s], from 0 on, the `Problem` then: its ``heights`` [m] (nx, ny) are those of both bodies.
         Load and speed may change too, the grid may not
     step : [s]. If the lubricant passes one cell in it, the mass is followed along
-    start : the state at time 0, or the `Moment.past` of the moment there, whose steps go on; None: the steady film there, of
-        roughness at rest
+    start : the state at time 0, or the `Moment.past` of the moment there, whose steps go on; None: the steady film
+        there, of roughness at rest
     tolerance : of the residuals of a step (`lubfric.models.deterministic.state.residuals`); small waves need 1e-6 and
         less
     carries_imbalance : whether the mass that a step leaves out of balance is added to that of the next step. Then it
         does not add up over the steps, and a ``tolerance`` as large as 0.5 will do for the mean friction
     linear_accuracy : of GMRES (`System.solve`)
-    shift : cells, and parts of one, by which the roughness moves in a step. Newton's method begins with its pressure there; the
-        result does not depend on it
-    extrapolated : part of the last change of that pressure that is added to it [-]; the result does not depend on it either
+    shift : cells, and parts of one, by which the roughness moves in a step. Newton's method begins with its pressure
+        there; the result does not depend on it
+    extrapolated : part of the last change of that pressure that is added to it [-]; the result does not depend on it
+        either
 
     The first is time 0 itself. Raises `ConvergenceError` where a step is not solved.
     """

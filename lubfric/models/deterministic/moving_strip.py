@@ -124,8 +124,8 @@ class MovingEffort:
     - ``residual``: at which a step ends (`residuals`), for each column of cells along x; ``carries_imbalance``: whether
       the mass that it leaves out of balance goes into the next step; ``linear``: residual of GMRES, relative.
     - ``inlet``, ``outlet``: lengths of the grid up and down stream, at least, in Hertz half-widths.
-    - ``discarded``: distance that the lubricant travels before anything counts, in half-widths; ``discarded_again``: the
-      same in a continuation with other inputs, which begins nearer.
+    - ``discarded``: distance that the lubricant travels before anything counts, in half-widths; ``discarded_again``:
+      the same in a continuation with other inputs, which begins nearer.
     """
 
     residual: float
@@ -162,9 +162,10 @@ ECONOMICAL = MovingEffort(
 class ExpectedCourse:
     """What the estimate of the work expects of a strip of moving roughness.
 
-    - ``rest``: steps in time that the strip at rest is worth. ``way``: distance that the roughness travels in the moments that
-      count, in Hertz half-widths; infinite: all of the map passes.
-    - ``on_longer``: work of a step on cells twice as long along y over that on the shorter ones; 0: it is not followed there.
+    - ``rest``: steps in time that the strip at rest is worth. ``way``: distance that the roughness travels in the
+      moments that count, in Hertz half-widths; infinite: all of the map passes.
+    - ``on_longer``: work of a step on cells twice as long along y over that on the shorter ones; 0: it is not followed
+      there.
     """
 
     rest: float
@@ -228,8 +229,8 @@ class MovingStripSolution(StripSolution):
     - ``to_continue``: where `continued_strip` starts. ``effort`` and ``ends`` [m], of the grid up and down stream: with
       which the strip was solved.
     - ``with_oils``: f if the films of all moments that count were sheared as the oils at both ends of the range of an
-      input (`OF_SHEAR`), by its name. ``moved``: share of the load that moves at each end of the range of the hardness [Pa]
-      (`share_moved_by_hardness`), mean over all moments that count.
+      input (`OF_SHEAR`), by its name. ``moved``: share of the load that moves at each end of the range of the hardness
+      [Pa] (`share_moved_by_hardness`), mean over all moments that count.
     """
 
     rest: StripSolution

@@ -81,9 +81,10 @@ class Problem(HasLineContact):
     sense : 1, or -1 where u2 < u1
     upper : z2, the roughness of surface 2, a part of z [m] (nx, ny); None: it is smooth
     least_flow : what the residuals of the mass are relative to, where less flows in [m²/s]: in time, where U may be 0
-    sheared : the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer inlet;
-        None: they are one
-    memo : what is remembered of other problems of the same bodies: their operators and dry contacts; it changes no result
+    sheared : the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer
+        inlet; None: they are one
+    memo : what is remembered of other problems of the same bodies: their operators and dry contacts; it changes no
+        result
     """
 
     line: LineContact

@@ -69,18 +69,19 @@ class DeterministicResult(Renamed, ModelDetails):
     dent : plastic depth [m]
     coefficient : (boundary + couette + rolling)/load [-], of surface 2 against its sliding (`Problem`)
     at_half_film, at_twice_film : ``coefficient`` with half and with twice the boundary film
-    sliding_at_half_film, sliding_at_twice_film : their parts (boundary + couette)/load, which no gradient of pressure moves
-    at_least_limit, at_most_limit : ``coefficient`` with the limiting stress of an oil without one at the ends of `LIMIT_RANGE` times p
-        instead of f_b p, on the same fields
+    sliding_at_half_film, sliding_at_twice_film : their parts (boundary + couette)/load, which no gradient of pressure
+        moves
+    at_least_limit, at_most_limit : ``coefficient`` with the limiting stress of an oil without one at the ends of
+        `LIMIT_RANGE` times p instead of f_b p, on the same fields
     boundary : f_b p over the rubbing cells
     couette : shear of the film by the sliding
     rolling : by the gradient of pressure, and by the pressure on the flanks of a rough surface 2
-    rolling_resistance : of both surfaces together, against U: by the gradient of pressure, and by the pressure on the flanks
-        of all roughness
+    rolling_resistance : of both surfaces together, against U: by the gradient of pressure, and by the pressure on the
+        flanks of all roughness
     split : the load on rubbing cells, and its parts
     load : of the contact
-    load_at, friction_at, couette_at : load, friction and shear of the film by the sliding of every place along y (ny,); their means
-        are ``load``, ``coefficient`` times that, and ``couette``
+    load_at, friction_at, couette_at : load, friction and shear of the film by the sliding of every place along y (ny,);
+        their means are ``load``, ``coefficient`` times that, and ``couette``
     speed : U [m/s]
     flow_film : flow/U [m]
     min_gap, mean_gap, central_gap : smallest gap, mean over the Hertz strip of the load, and mean at x = 0 [m]

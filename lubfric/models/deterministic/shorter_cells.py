@@ -130,11 +130,11 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     """Solve the third and fourth level for ``pairs``, as far as ``numerics.tolerance`` needs them, if the roughness
     rests; where it moves, the effect of shorter cells is the expected one (`CellsInMotion`).
 
-    - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
-      heights are not smooth over a cell. Where it is not solved, because it does not converge or has too many cells, the
-      error is `UNSOLVED_FACTOR` times the estimate.
-    - The fourth level is needed where the third leaves more than the tolerance, and solved where it pays (`pays`). What it
-      estimates from one short piece may be off by half.
+    - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where
+      the heights are not smooth over a cell. Where it is not solved, because it does not converge or has too many
+      cells, the error is `UNSOLVED_FACTOR` times the estimate.
+    - The fourth level is needed where the third leaves more than the tolerance, and solved where it pays (`pays`). What
+      it estimates from one short piece may be off by half.
     - A single patch has one piece: all of it, on shorter and shorter cells (`_patch_on_shorter_cells`).
     """
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)

@@ -467,8 +467,8 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     as long on a longer or shorter grid. The first of these that applies:
 
         start                              where
-        `_interpolated_start`              the cells are as long; or asperities carry less than `SHARP_LOAD_RATIO`, and its
-                                           residuals are at most `WORSE` times those of `dry_start`
+        `_interpolated_start`              the cells are as long; or asperities carry less than `SHARP_LOAD_RATIO`, and
+                                           its residuals are at most `WORSE` times those of `dry_start`
         `_pressed_start`                   asperities carry more than `WET_LOAD_RATIO`
         `_corrected_dry_start`             otherwise
     """

@@ -44,14 +44,14 @@ class TimeHistory:
 
     Attributes
     ----------
-    extrapolated : the mass that the moments before leave to the step [m] (nx, ny): of an Euler step that of the last moment,
-        else `extrapolated_mass`
+    extrapolated : the mass that the moments before leave to the step [m] (nx, ny): of an Euler step that of the last
+        moment, else `extrapolated_mass`
     step : its length [s]
     last : mass of the last moment [m]
     part : part of its change by which a mass is extrapolated [-]
     earlier : mass of the moment before the last [m]
-    follows_lubricant : whether these masses are those of the cells upstream, because in a step the lubricant moves by one cell;
-        then nothing more flows with U
+    follows_lubricant : whether these masses are those of the cells upstream, because in a step the lubricant moves by
+        one cell; then nothing more flows with U
     """
 
     extrapolated: np.ndarray
@@ -174,8 +174,8 @@ def admissible(problem: Problem, state: State) -> State:
     """Return ``state`` without suction, overfilled cells, pressures above P_u and negative dents: each such cell obeys
     the equation of its other kind.
 
-    - A fluid cell under suction ruptures if no neighbour is under much stronger suction. So does a touching cell under suction.
-      A ruptured cell that is full carries pressure again.
+    - A fluid cell under suction ruptures if no neighbour is under much stronger suction. So does a touching cell under
+      suction. A ruptured cell that is full carries pressure again.
     - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
     kind = state.kind.copy()
@@ -200,7 +200,8 @@ def admissible(problem: Problem, state: State) -> State:
 def update_active_sets(at: Iterate) -> Iterate:
     """Return ``at``, whose state is `admissible`, with cells that touch or open as its gap and residual require.
 
-    - A cell whose gap is below the floor touches, unless it has just ruptured: its gap rises by the suction that it has lost.
+    - A cell whose gap is below the floor touches, unless it has just ruptured: its gap rises by the suction that it has
+      lost.
     - A touching cell with a surplus of inflow opens (`_opened`).
     """
     kind = at.state.kind.copy()

@@ -50,8 +50,8 @@ class StripOnTwoGrids:
     Attributes
     ----------
     resolved : on the cells of the answer
-    longer : on longer cells (`longer_than`), from which it started; of moving roughness, followed there from rest over the
-        first moments, or only at rest, where that had no solution
+    longer : on longer cells (`longer_than`), from which it started; of moving roughness, followed there from rest over
+        the first moments, or only at rest, where that had no solution
     is_mirrored : whether the second half along y is the mirror image of the first
     has_halved_cells : whether its cells along y are half as long as by `sample_coarsening_of`
     """

@@ -1,12 +1,13 @@
 """Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
 - The balance: `point` solves film and contact, each at its share of the load; `balance` finds the division at which the
-  `closure`, Eq. (8), holds; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
-  `scatter` and `undetected` give its sampling error, and `response` shows how strongly all that depends on an error of
-  the gap.
+  `closure`, Eq. (8), holds; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for
+  their cells, `scatter` and `undetected` give its sampling error, and `response` shows how strongly all that depends on
+  an error of the gap.
 - `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `error_of_eq8` its error, `limits` the assumptions
   that a balance violates; `answer` and `errors_of` make the answer.
-- `differences_of_strips` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
+- `differences_of_strips` hands what is known of the strips to the deterministic model; `estimated_work` estimates the
+  cost.
 """
 
 from .balance import Balance, is_separated, solve_balance

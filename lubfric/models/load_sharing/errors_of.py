@@ -58,8 +58,8 @@ class SolverErrors:
     ----------
     film_error : of the film, relative
     gap_error : of the mean gap at given load [m], by what the root leaves of it and by the cells of the contact
-    shear_error : of the film's shear stress, relative to f: by its sum over nodes, by the heat that it omits, and by where the
-        surfaces touch
+    shear_error : of the film's shear stress, relative to f: by its sum over nodes, by the heat that it omits, and by
+        where the surfaces touch
     area_error : of the contact area, relative
     """
 

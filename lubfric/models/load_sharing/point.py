@@ -40,8 +40,8 @@ class Trial:
     film, contact_state : both at their loads
     film_load, contact_load : F_H and F_C [N]
     last_touching : the last contact that touched; None: none did
-    film_cells : cells of the films so far. From the second on all keep to one grid, because otherwise the root of the balance
-        would have a jump
+    film_cells : cells of the films so far. From the second on all keep to one grid, because otherwise the root of the
+        balance would have a jump
     """
 
     film: EHLResult

@@ -63,8 +63,8 @@ class ErrorModel:
     spread : coefficient of each feature in ln σ
     quantile : k
     usual_error : half-width of the bounds of f, relative, that nine cases in ten do not exceed
-    rolling : 95 % quantile of the error of the part of f by the gradient of the pressure, over the square root of that part
-        times the sum of both parts
+    rolling : 95 % quantile of the error of the part of f by the gradient of the pressure, over the square root of that
+        part times the sum of both parts
     range : least and largest pressure [Pa], Moes' film over Sq [-], load [N/m] and slide-roll ratio [-] of the cases
     """
 
@@ -108,8 +108,9 @@ def error_model_of(scene: Scene) -> ErrorModel:
 class Outside:
     """A number of a contact that is outside of the range of the campaign.
 
-    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range; is_thicker : whether it is the film over
-        Sq, and above the range. A lambda ratio and its limit are both as starvation, shear thinning and the heat of the inlet make them, as the result has it
+    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range; is_thicker :
+        whether it is the film over Sq, and above the range. A lambda ratio and its limit are both as starvation, shear
+        thinning and the heat of the inlet make them, as the result has it
     """
 
     what: str

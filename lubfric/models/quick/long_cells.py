@@ -304,13 +304,15 @@ def features(numbers: Mapping[str, float], boundary_friction: float) -> dict[str
     ``boundary_friction``: f_b. The features are
 
     - "one"; "cells", by_cells between ± `MOST_BY_CELLS`, and "ln cells" of its size;
-    - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of f,
-      and "ln film", ln(1 + c/`LITTLE_BY_FILM`);
-    - "narrowed": change of ln of the sliding part of f with ln of the boundary film, between ± 1, times the square of the
-      cell along x over that of `CELLS_OF_THIN_FILM`, where heights are smooth: long cells let too little lubricant into narrow
-      gaps (`CellsInMotion`). "summits": that change where they are not, and shorter cells show new summits;
-    - "ln rolling": ln(1 + r/`LITTLE_ROLLING`), with the part r of f by the gradient of the pressure over the sliding part;
-    - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION` only.
+    - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of
+      f, and "ln film", ln(1 + c/`LITTLE_BY_FILM`);
+    - "narrowed": change of ln of the sliding part of f with ln of the boundary film, between ± 1, times the square of
+      the cell along x over that of `CELLS_OF_THIN_FILM`, where heights are smooth: long cells let too little lubricant
+      into narrow gaps (`CellsInMotion`). "summits": that change where they are not, and shorter cells show new summits;
+    - "ln rolling": ln(1 + r/`LITTLE_ROLLING`), with the part r of f by the gradient of the pressure over the sliding
+      part;
+    - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION`
+      only.
     """
     sliding = max(numbers["coefficient"] - numbers["rolling"], LEAST_SLIDING)
     below = 1 - sliding / boundary_friction
