@@ -17,7 +17,8 @@ point = lubfric.friction(scene, 0.03)
 print(point.uncertainty.text)
 
 # %%
-# Ten patches of the paper's size, 90 µm wide, scatter widely about this value. A single patch does not show this scatter.
+# Ten patches of the paper's size, 90 µm wide, scatter widely about this value. A single patch does not show this
+# scatter.
 
 patches = []
 for seed in range(10):

@@ -82,8 +82,8 @@ contacts = [
 ]
 
 # %%
-# How each effect is added. The starved inlet receives 70 % of the oil that flows through the flooded contact. The Carreau
-# law, here with 30 kPa and 0.8, is for an oil with polymers, such as a multigrade oil.
+# How each effect is added. The starved inlet receives 70 % of the oil that flows through the flooded contact. The
+# Carreau law, here with 30 kPa and 0.8, is for an oil with polymers, such as a multigrade oil.
 
 
 def variations(scene, film):

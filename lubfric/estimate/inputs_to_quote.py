@@ -160,5 +160,6 @@ def _lubricant(scene: Scene) -> Iterator[str]:
         yield f"critical stress {worded(stress, 'Pa')} and exponent {exponent:.4g} of Carreau's law"
     if lubricant.limit is not None:
         yield (
-            f"limiting stress {worded(lubricant.limiting_stress_offset, 'Pa')} + {lubricant.limiting_stress_coefficient:.4g} times the pressure"
+            f"limiting stress {worded(lubricant.limiting_stress_offset, 'Pa')} + "
+            f"{lubricant.limiting_stress_coefficient:.4g} times the pressure"
         )

@@ -10,7 +10,8 @@ from .ranges import changes_by_ranges, with_input_ranges, with_inputs_not_given
 from .uncertainty import Uncertainty, interval
 
 AT_MOST = (
-    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress of the oil "
+    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress "
+    "of the oil "
     "in the thinnest film) and {} by rolling"
 )
 

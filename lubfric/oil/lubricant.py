@@ -120,7 +120,10 @@ class Lubricant(Renamed, Shown):
             return False
         limiting = [law.key for law in FLOW_LAWS if not law.is_power_law]
         if any(getattr(self, key) is not None for key in limiting):
-            message = f" = {AS_BOUNDARY!r} is for a lubricant without a limit of its shear stress, and the law of this one has a limit"
+            message = (
+                f" = {AS_BOUNDARY!r} is for a lubricant without a limit of its shear stress, and the law of this one "
+                "has a limit"
+            )
             laws = " and ".join(limiting)
             raise InputError(message, LimitingStress.key, f"a number, or omit {laws}")
         object.__setattr__(self, LimitingStress.key, None)

@@ -133,5 +133,6 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     thin, thick = ((bound / alpha.value) ** FILM_EXPONENT - 1 for bound in (alpha.low, alpha.high))
     text += f"; the range of this coefficient changes the film thickness by {100 * thin:+.2g} to {100 * thick:+.2g} %"
     if other is not None:
-        text += f"; the estimate of {other.source} is {other.value * 1e9:.3g} /GPa ({100 * (other.value / alpha.value - 1):+.2g} %)"
+        difference = other.value / alpha.value - 1
+        text += f"; the estimate of {other.source} is {other.value * 1e9:.3g} /GPa ({100 * difference:+.2g} %)"
     return text

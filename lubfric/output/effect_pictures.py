@@ -153,7 +153,10 @@ def _share_in_words(key: str, shares: dict[str, Any]) -> str:
     if key not in shares:
         return ""
     share = shares[key].share
-    return f"{percent(share) if share >= LEAST_SHARE else f'below {percent(LEAST_SHARE)}'} of the variance of ln\N{NO-BREAK SPACE}f"
+    return (
+        f"{percent(share) if share >= LEAST_SHARE else f'below {percent(LEAST_SHARE)}'} of the variance of "
+        f"ln\N{NO-BREAK SPACE}f"
+    )
 
 
 def _shown(key: str, values: np.ndarray) -> tuple[np.ndarray, str]:

@@ -32,7 +32,10 @@ FIT_CAPTION = "Measured points and the fitted curve, and below the deviations of
 MEASURED_SPEEDS = " The measured speeds take the place of those of the scene."
 
 # What the status says of a pressure-viscosity coefficient that is neither given nor fitted.
-ALPHA_IS_ESTIMATE = " The pressure-viscosity coefficient is an estimate, and its error, which the fitted parameters have too, is in no interval."
+ALPHA_IS_ESTIMATE = (
+    " The pressure-viscosity coefficient is an estimate, and its error, which the fitted parameters have too, is in "
+    "no interval."
+)
 
 # What f is beside the measured points.
 OF_POINTS = (
@@ -309,8 +312,10 @@ def _method(result: FitResult) -> list[str]:
         f"{percent(result.tolerance)}{by_noise}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
-        "The 95 % intervals follow from the slopes of f at the fit, with Student's t. Curves towards the ends of a wide "
-        "interval, with the other parameters fitted again, show where the sum of squares exceeds its limit; a parameter "
+        "The 95 % intervals follow from the slopes of f at the fit, with Student's t. Curves towards the ends of a "
+        "wide "
+        "interval, with the other parameters fitted again, show where the sum of squares exceeds its limit; a "
+        "parameter "
         "without effect on f at the fit is varied up to its bounds.",
     ]
 

@@ -66,7 +66,8 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     if ratio.size:
         sq = plain_number(float(np.median(result.full_load_film[with_ratio] / ratio)), "m")
         sentences.append(
-            f"At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over a Sq of {sq}) lies "
+            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over a Sq of "
+            f"{sq}) lies "
             f"between {number_or_dash(float(ratio.min()))} and "
             f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )

@@ -77,7 +77,10 @@ def history_table(result: TransientResult) -> str:
         time = f"{shown['time'][index]:.5g}"  # two outputs differ
         others = [number_or_dash(_rounded(shown[name], index)) for name in before if name != "time"]
         rows.append(number_cells([time, *others, f, interval, *numbers, ratio]))
-    about = f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with the largest f and the largest power loss;"
+    about = (
+        f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with the largest f "
+        "and the largest power loss;"
+    )
     films = (
         " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the "
         "part of the load that the film carries, so it may be thicker."

@@ -54,7 +54,10 @@ class MissedTolerance:
         if total == 1:
             return f"The {self.error} is {value}, above {limit} ({self.tolerance})."
         if len(self.points) == 1:
-            return f"{sentence(place(self.worst)).removesuffix('.')} the {self.error} is {value}, above {limit} ({self.tolerance})."
+            return (
+                f"{sentence(place(self.worst)).removesuffix('.')} the {self.error} is {value}, above {limit} "
+                f"({self.tolerance})."
+            )
         notes = (
             f" At {self.notes} of these it is a note, because it is usual for the model or accepted with it."
             if self.notes

@@ -25,7 +25,10 @@ def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str 
     if is_among(value, others):
         return ""
     key = "motion.entrainment_speed" if name == "speed" else "motion.slide_roll_ratio"
-    what = f"The scene's own {'speed' if name == 'speed' else 'slide-roll ratio'}, {worded_value(key, value)} ({key}), is not solved, "
+    what = (
+        f"The scene's own {'speed' if name == 'speed' else 'slide-roll ratio'}, {worded_value(key, value)} ({key}), "
+        "is not solved, "
+    )
     if name == "speed" and value == 0:
         return f"{what}because a curve over the speed has no point at rest."
     if name == "speed" and not belongs_to_curve(value, others):

@@ -250,7 +250,10 @@ def run_fit(arguments: Namespace) -> None:
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             to_come = f"about {studies.in_words(left)} left" if done < total else "the last one that was expected"
             passed = f"{begun.processor_seconds:.0f} s of processor time, {to_come}"
-            state = f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, at {place}"
+            state = (
+                f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, "
+                f"at {place}"
+            )
             if math.isnan(misfit):
                 state = f"search by the load-sharing model, curve {done} of about {total}: lowest at {place}"
             say(f"{state}; {passed}")

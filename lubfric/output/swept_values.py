@@ -40,7 +40,10 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         likely = "write a point in decimals, 0.01"
         if decimal is not None:
             (first, second, suffix) = ((part or "").rstrip() for part in decimal.groups())
-            likely = f"write a point in decimals, '{first}.{second}{suffix}', or for two values '{first}{suffix}, {second}{suffix}'"
+            likely = (
+                f"write a point in decimals, '{first}.{second}{suffix}', or for two values '{first}{suffix}, "
+                f"{second}{suffix}'"
+            )
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; {likely}")
     apart = text.split()
     if len(words) == 1 and len(apart) > 1 and all(_is_number(word) for word in apart):

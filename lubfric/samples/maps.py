@@ -67,7 +67,10 @@ def way_to_longer_line(scene: Scene, surface: Surface) -> str:
     if not is_measured(scene):
         return "a longer map along y"
     (name, file) = limiting_map(scene, surface, 1)
-    return f"a map of [{name}] that is longer across the motion{_axis_of_file(scene, name, 1)}, in place of {Path(file).name}"
+    return (
+        f"a map of [{name}] that is longer across the motion{_axis_of_file(scene, name, 1)}, in place of "
+        f"{Path(file).name}"
+    )
 
 
 def way_to_longer_patch(scene: Scene, surface: Surface) -> str:
@@ -189,7 +192,8 @@ def _longest_in_words(longest: LongestContact) -> str:
     if longest.time is None:
         return load_in_words(bodies)
     return (
-        f"the contact is longest at t = {worded(longest.time, 's')}, under {worded(bodies.load, 'N')} at a reduced radius of "
+        f"the contact is longest at t = {worded(longest.time, 's')}, under {worded(bodies.load, 'N')} at a reduced "
+        "radius of "
         f"{worded(bodies.radius, 'm')}, with a Hertz half-width of {worded(bodies.half_width, 'm')}"
     )
 
@@ -230,7 +234,8 @@ def load_in_words(bodies: Bodies) -> str:
 def _ways_with_short_map(name: str) -> str:
     """Return what a scene may state if the map of its section ``name`` is too short."""
     return (
-        f"{name}.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
+        f"{name}.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its "
+        "roughness "
         "spread over the strip)"
     )
 

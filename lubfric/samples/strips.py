@@ -215,7 +215,8 @@ class MeasuredStrips(Sample):
         side = "above" if deviation > 0 else "below"
         return [
             *lines,
-            f"Sq of the strips is {100 * abs(deviation):.2g} % {side} that of the map (a sample of this size differs by up to "
+            f"Sq of the strips is {100 * abs(deviation):.2g} % {side} that of the map (a sample of this size differs "
+            "by up to "
             f"{float(f'{100 * explained:.2g}'):g} % at 95 %)",
         ]
 
@@ -252,8 +253,10 @@ class MeasuredStrips(Sample):
         lengths = (1e6 * count * self.surface.spacing[1] for count in (rows, len(windows) * self.surface.shape[1]))
         used, measured = (f"{length:.5g} µm" for length in lengths)
         note = (
-            f"{counted(len(windows), 'windows')} of {shape}, joined along y; {used} of their {measured} are used: each window passes "
-            f"smoothly into the next one, and the last into the first, over {self._blend} cells, so that no edge carries load, and the "
+            f"{counted(len(windows), 'windows')} of {shape}, joined along y; {used} of their {measured} are used: "
+            "each window passes "
+            f"smoothly into the next one, and the last into the first, over {self._blend} cells, so that no edge "
+            "carries load, and the "
             f"length is a whole multiple of {WINDOW_ROWS_MULTIPLE} cells of {1e6 * self.cells.spacing[1]:.3g} µm"
         )
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
@@ -402,7 +405,8 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
         cells = replace(cells, columns=cells.columns - COLUMNS_MULTIPLE)
     if cells.columns < 1:
         raise InputError(
-            f"the map is {surface.shape[0]} cells long along x; allowed: at least {COLUMNS_MULTIPLE * cells.coarsening[0]}"
+            f"the map is {surface.shape[0]} cells long along x; allowed: at least "
+            f"{COLUMNS_MULTIPLE * cells.coarsening[0]}"
         )
     return cells
 

@@ -193,7 +193,10 @@ def _of_duration(plan: Transient | None) -> list[UnusualValue]:
             question = f"{what}, {1.0 / parts:,.0f} times as long: is one of the two times in another unit?"
         elif parts > MOST_PERIODS_OF_RUN:
             limit = MOST_PERIODS_OF_RUN * length
-            question = f"{what}, and the run has {parts:,.0f} of them, where two show a periodic motion: is one of the two times in another unit?"
+            question = (
+                f"{what}, and the run has {parts:,.0f} of them, where two show a periodic motion: is one of the two "
+                "times in another unit?"
+            )
         if question:
             unusual.append(
                 UnusualValue(

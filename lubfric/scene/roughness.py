@@ -113,7 +113,10 @@ class Roughness(Shown):
             return 0.0
         sq = honed_sq(self.sk, self.spk, self.svk)
         if self.sq is not None and abs(self.sq - sq) > SAME_SQ * sq:
-            message = f" = {validate.shown(self.sq)} cannot be combined with sk, spk and svk, from which Sq {sq:.4g} m follows"
+            message = (
+                f" = {validate.shown(self.sq)} cannot be combined with sk, spk and svk, from which Sq {sq:.4g} m "
+                "follows"
+            )
             raise InputError(message, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
         return sq
 

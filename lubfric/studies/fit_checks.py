@@ -175,7 +175,10 @@ class ResidualTests:
         """How often random scatter leaves residuals as regular as these, in a sentence."""
         if self.chance <= RAREST:
             return f"random scatter leaves residuals as regular in fewer than 1 of {1 / RAREST:.0f} measurements"
-        return f"random scatter leaves residuals as regular in about 1 of {float(f'{1 / self.chance:.1g}'):.0f} measurements"
+        return (
+            f"random scatter leaves residuals as regular in about 1 of {float(f'{1 / self.chance:.1g}'):.0f} "
+            "measurements"
+        )
 
     @property
     def _cause(self) -> str:

@@ -139,7 +139,10 @@ class Law(Shown):
             if np.isfinite(self.interval)
             else "whose points have errors that are not known"
         )
-        return f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves, {of_points}"
+        return (
+            f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves, "
+            f"{of_points}"
+        )
 
     @property
     def warning(self) -> str:

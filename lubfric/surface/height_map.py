@@ -65,7 +65,10 @@ class Surface(FrozenArrays, Shown):
         measured = validate.array("heights", heights if mask is None else np.where(mask, heights, 0.0), "m", ndim=2)
         largest = float(np.abs(measured).max())
         if largest > HIGHEST:
-            ways = "check their unit (unit = 'nm' or 'um' of a file), or give missing_value, if they stand for 'not measured'"
+            ways = (
+                "check their unit (unit = 'nm' or 'um' of a file), or give missing_value, if they stand for 'not "
+                "measured'"
+            )
             raise InputError(f" = {largest:g} m is out of range", "heights, the largest", f"up to {HIGHEST:g} m", ways)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)

@@ -114,7 +114,10 @@ def check_slopes(surface: Surface) -> None:
 
 
 # What to do about lengths that no surface has.
-WHERE_UNIT_IS_WRONG = "check the unit; where the file names none, give it: unit = 'um', or of points unit = ('mm', 'um') for x and y, and z"
+WHERE_UNIT_IS_WRONG = (
+    "check the unit; where the file names none, give it: unit = 'um', or of points unit = ('mm', 'um') for x and y, "
+    "and z"
+)
 WHERE_GIVEN_UNIT_IS_WRONG = (
     "check the unit of the heights (of points: unit = ('mm', 'um') for x and y, and z), and the spacing, which is in "
     "m: spacing = 1e-6 is 1 µm"

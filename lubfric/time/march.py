@@ -230,7 +230,8 @@ def report_of(
     elif not worst.value <= 1.0:
         status = ITERATION_LIMIT
         summary = (
-            f"all {plan.times.size} outputs are solved, but {worst.what} is {plain_number(worst.value)} times its tolerance"
+            f"all {plan.times.size} outputs are solved, but {worst.what} is {plain_number(worst.value)} times its "
+            "tolerance"
             f"{worst.where and ' ' + worst.where}"
         )
         advice = worst.advice

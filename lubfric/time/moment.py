@@ -285,8 +285,10 @@ def _violated(
             value=shear_error,
             limit=scene.numerics.tolerance,
             unit="",
-            consequence="the grid of a run in time does not resolve the pressure spike, or the film is ruptured where it shears most",
-            recommendation="set a tighter numerics.film_tolerance, or solve the steady point at the same speed (lubfric.friction), which "
+            consequence="the grid of a run in time does not resolve the pressure spike, or the film is ruptured "
+            "where it shears most",
+            recommendation="set a tighter numerics.film_tolerance, or solve the steady point at the same speed "
+            "(lubfric.friction), which "
             "resolves the spike",
         )
     if row["contact_load"] > 0:

@@ -34,7 +34,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MANY_BLOCKS = 30  # blocks less one: of a strip; a choice: Student's t is 2.04 for 1.96
-NOT_IN = "not in the interval, because a run in time is solved with one value; solve it with both ends of the range to see the change"
+NOT_IN = (
+    "not in the interval, because a run in time is solved with one value; solve it with both ends of the range to "
+    "see the change"
+)
 TINY = 1e-30  # no f is divided by less; a choice: any number below all f does
 # Parts of the uncertainty budget (`lubfric.estimate.PARTS`) that a run in time does not have: the effect of an input
 # that the scene does not give is not computed.

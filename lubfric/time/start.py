@@ -26,7 +26,8 @@ from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 # Speeds of a run at which its assumptions are checked: a choice between time and what is seen.
 JUDGED_SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST_JUDGED = 1e-3  # of the fastest: slower ones are boundary lubrication
-SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
+# What a run does of the steady options. The film is deflected by its own pressure, whatever the default says.
+SUPPORTED = {
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
 }

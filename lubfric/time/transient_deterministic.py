@@ -388,7 +388,10 @@ def deterministic_moment(
     ]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        recommendation = "set numerics.model = 'paper', which models heat in time; numerics.heat = 'off' neglects heat without this warning"
+        recommendation = (
+            "set numerics.model = 'paper', which models heat in time; numerics.heat = 'off' neglects heat without "
+            "this warning"
+        )
         violations.append(
             Violation(
                 assumption=Assumption.ISOTHERMAL_RUN,

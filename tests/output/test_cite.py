@@ -70,7 +70,8 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     peak = (b.load * b.e_prime / (2 * math.pi * b.width * b.radius)) ** 0.5
     nx, ny = point.decision.shape
     for words in (
-        f"Sq {1e9 * scene.surface.sq:.4g} nm with a correlation length of {1e6 * scene.surface.correlation_length:.4g} µm",
+        f"Sq {1e9 * scene.surface.sq:.4g} nm with a correlation length of "
+        f"{1e6 * scene.surface.correlation_length:.4g} µm",
         f"load {b.load:.4g} N",
         f"peak Hertz pressure {1e-6 * peak:.4g} MPa",
         "pressure-viscosity coefficient 20 1/GPa;",

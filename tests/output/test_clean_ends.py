@@ -55,7 +55,8 @@ def test_an_interrupt_while_modules_load_ends_in_one_line(tmp_path):
 def test_too_little_memory_is_one_line(tmp_path):
     """The limit of an address space, as clusters set it."""
     script = (
-        "import resource, sys; from lubfric.output import main; import numpy, scipy.fft, matplotlib.pyplot, lubfric.time;"
+        "import resource, sys; from lubfric.output import main; import numpy, scipy.fft, matplotlib.pyplot, "
+        "lubfric.time;"
         "used = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize();"
         "resource.setrlimit(resource.RLIMIT_AS, (used + 2**26, used + 2**26)); sys.exit(main(sys.argv[1:]))"
     )

@@ -28,7 +28,10 @@ def run(tmp_path_factory):
 
 
 def test_run_writes_its_record(run):
-    names = "result.json stribeck.csv stribeck.png fields.npz contact.png surface.png report.html references.bib resolved.toml"
+    names = (
+        "result.json stribeck.csv stribeck.png fields.npz contact.png surface.png report.html references.bib "
+        "resolved.toml"
+    )
     assert {p.name for p in run.iterdir()} == {".lubfric", *names.split()}
     assert lubfric.load_scene(run / "resolved.toml") == lubfric.load_scene(run.parent / "small.toml")
     record = json.loads((run / "result.json").read_text())

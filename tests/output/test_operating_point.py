@@ -53,7 +53,10 @@ def test_info_counts_the_speeds_that_a_run_solves(speed, solved):
 
 
 def test_speeds_of_the_command_alone_are_solved_and_the_first_lines_say_so(tmp_path, capsys):
-    why = "The scene&#x27;s own speed, 0.05 m/s (motion.entrainment_speed), is not solved, because --speeds does not contain it."
+    why = (
+        "The scene&#x27;s own speed, 0.05 m/s (motion.entrainment_speed), is not solved, because --speeds does not "
+        "contain it."
+    )
     speeds, page, _ = ran(tmp_path, "entrainment_speed = 0.05", "--speeds", "0.01,0.1")
     assert speeds == [0.01, 0.1] and page.split('<p class="answer">')[1].split("<p>")[1].startswith(why)
     # by ratio 0.1 m/s is the nearest speed, by difference 0.01 m/s

@@ -269,7 +269,8 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     assert shortfalls([], 0, 3, place) == []
     (inexact, unknown) = shortfalls([missed], 3, 3, place)
     assert inexact == (
-        "At 2 of 3 points the numerical error of f is above its tolerance, farthest at U = 2 m/s: 2 %, above 1 % (numerics.tolerance)."
+        "At 2 of 3 points the numerical error of f is above its tolerance, farthest at U = 2 m/s: 2 %, above 1 % "
+        "(numerics.tolerance)."
     )
     assert unknown == "At 3 of 3 points the interval of f is not known."
     assert shortfalls([missed], 0, 3, place)[1] == "The interval of f includes this error."
@@ -279,7 +280,8 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     assert shortfalls([alone], 1, 2, place)[0] == "At U = 0 m/s the e is 1.04 %, above 1 % (k)."
     differing = replace(missed, limits=(0.005, 0.01), notes=1)
     assert differing.in_words(3, place) == (
-        "At 2 of 3 points the numerical error of f is above its limits, 0.5 to 1 %, farthest at U = 2 m/s: 2 %, above 1 % "
+        "At 2 of 3 points the numerical error of f is above its limits, 0.5 to 1 %, farthest at U = 2 m/s: 2 %, "
+        "above 1 % "
         "(numerics.tolerance). At 1 of these it is a note, because it is usual for the model or accepted with it."
     )
 

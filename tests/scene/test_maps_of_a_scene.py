@@ -302,7 +302,10 @@ def test_a_map_too_short_is_refused_with_the_length_of_its_file(tmp_path, axis, 
     for across, named in ((80, True), (14, False)):
         heights = 1e-8 * rng.standard_normal((13, across))
         np.save(tmp_path / "own.npy", heights if axis == "x" else heights.T)
-        text = f"[surface]\nfile = 'own.npy'\nspacing = {GRID}\nmotion_axis = '{axis}'\n[numerics]\nsampling = '{sampling}'\n"
+        text = (
+            f"[surface]\nfile = 'own.npy'\nspacing = {GRID}\nmotion_axis = '{axis}'\n[numerics]\nsampling = "
+            f"'{sampling}'\n"
+        )
         with pytest.raises(lubfric.InputError, match="own.npy") as caught:
             lubfric.prepare(loaded(tmp_path, text))
         assert "is 7.8 µm long in x" in str(caught.value)

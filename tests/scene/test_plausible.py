@@ -104,7 +104,8 @@ def test_the_likely_cause_begins_a_message():
     with pytest.raises(lubfric.InputError) as caught:
         lubfric.load_scene("paper").with_(bodies={"hardness": 700})
     assert str(caught.value).startswith(
-        "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. If not: bodies.load"
+        "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. If not: "
+        "bodies.load"
     )
 
 

@@ -257,7 +257,10 @@ def test_plain_numbers_that_may_be_in_another_unit_are_questioned_at_the_plan():
 def test_radii_in_mm_are_questioned_at_the_plan_before_any_solve(monkeypatch):
     monkeypatch.setattr("lubfric.studies.points.outcome_of", None)
     table = {"speed": [0.1, 0.1, 0.1], "radius [m]": [4.0, 5.0, 5e-3]}
-    words = "2 of 3 scenes: warning: bodies.radius is 4 to 5 m, above 1 m. Where it is largest: did you mean 5 mm (0.005 m)?"
+    words = (
+        "2 of 3 scenes: warning: bodies.radius is 4 to 5 m, above 1 m. Where it is largest: did you mean 5 mm (0.005 "
+        "m)?"
+    )
     assert words in lubfric.plan_study(SCENE, points=table).explain()
     strips = lubfric.load_scene("paper").with_(bodies={"hardness": None}, numerics={"model": "paper"})
     heavy = lubfric.plan_study(strips, {"bodies.hertz_pressure": [5e8, 2e9]}, [0.1])

@@ -390,9 +390,12 @@ def test_a_status_names_the_tolerances_that_are_missed_and_by_how_much():
     t = student.ppf(0.975, 4)
     at_95 = [f"{100 * t * n * numerics.sampling_tolerance:.2g} %" for n in (2, 1)]
     assert colour == "inexact" and text == (
-        "Converged: all 3 points are solved. At 2 of 3 points the numerical error of f is above its tolerance, farthest at point 3: "
-        f"{300 * numerics.tolerance:.2g} %, above {100 * numerics.tolerance:.2g} % (numerics.tolerance). At point 2 the sampling "
-        f"error of f at 95 % is {at_95[0]}, above {at_95[1]} (numerics.sampling_tolerance = {numerics.sampling_tolerance:g}, a "
+        "Converged: all 3 points are solved. At 2 of 3 points the numerical error of f is above its tolerance, "
+        "farthest at point 3: "
+        f"{300 * numerics.tolerance:.2g} %, above {100 * numerics.tolerance:.2g} % (numerics.tolerance). At point 2 "
+        "the sampling "
+        f"error of f at 95 % is {at_95[0]}, above {at_95[1]} (numerics.sampling_tolerance = "
+        f"{numerics.sampling_tolerance:g}, a "
         "standard error). The interval of f includes these errors."
     )
     chosen = lubfric.plan_study(SMALL.with_(numerics={"model": "auto"}), {"bodies.load": [1.0, 2.0, 3.0]}, [0.3])

@@ -272,7 +272,10 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     scene.write_text(text)
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}
-    stated = ".lubfric history.csv history.png fields.npz surface.png report.html references.bib resolved.toml result.json animation.gif"
+    stated = (
+        ".lubfric history.csv history.png fields.npz surface.png report.html references.bib resolved.toml "
+        "result.json animation.gif"
+    )
     assert names == {*stated.split()}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")

@@ -75,13 +75,15 @@ UNSOLVED_CELLS = "shorter cells did not converge{}: the numerical error is twice
 WITHIN_WORK = " within the work of a point"
 MORE_WORK = "set a larger numerics.max_work"
 ENDED_CELLS = (
-    "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical error above "
+    "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical "
+    "error above "
     "numerics.tolerance"
 )
 SMALLER_PATCH = "give a smaller patch (contact.shape)"
 PATCH_IN_PLACE = "use a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
-    "shorter cells of {} would be more than {:.3g}, the largest number that is solved: the numerical error is twice the estimate "
+    "shorter cells of {} would be more than {:.3g}, the largest number that is solved: the numerical error is twice "
+    "the estimate "
     "from longer cells; {} to reduce it"
 )
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
@@ -334,7 +336,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
     return Decision(
-        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.has_unlimited_stress]})",
+        contact_load_in_words=f"Boundary friction acts on {{part}} of the load "
+        f"({RUBS[scene.lubricant.has_unlimited_stress]})",
         film_in_words=words,
         contact_in_words="boundary friction where the gap is below the boundary film",
         tolerance=tolerance,
@@ -394,7 +397,8 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
     if work > LONGEST_WORK:
         return (
-            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip on the cells "
+            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a "
+            "strip on the cells "
             "of this map would take too long),"
         )
     with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
@@ -509,7 +513,8 @@ def violations_by_correction(by_summits: float, of_sample: float, f: float) -> I
             value=100 * abs(by_summits),
             limit=100 * limit,
             unit="%",
-            consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from those of "
+            consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from "
+            "those of "
             "the infinite surface; the sampling error is for the corrected f",
             recommendation="",
             is_note=True,
@@ -539,7 +544,8 @@ def _violations(
             value=1e9 * film,
             limit=1e9 * BOUNDARY_FILM,
             unit="nm",
-            consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the boundary film is not "
+            consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the "
+            "boundary film is not "
             f"given, and the interval of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
             recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured",
         )
@@ -560,7 +566,8 @@ def _violations(
     share = _share_given_off(results)
     if share > MOST_GIVEN_OFF:
         consequence = (
-            "almost no lubricant passes through the contact, and f changes by about 1 % with the assumed gap of 1 nm between "
+            "almost no lubricant passes through the contact, and f changes by about 1 % with the assumed gap of 1 nm "
+            "between "
             f"touching cells; the interval of f includes an error of {100 * ERROR_BY_GAP:g} % for this"
         )
         yield Violation(

@@ -153,7 +153,8 @@ ECONOMICAL = MovingEffort(
     linear=0.1,
     inlet=1.8,
     outlet=1.3,
-    discarded=2.4,  # f of four needle rollers rises by 13 % from rest: 6 % are missing after 1.7 half-widths, 1 % after 2.4
+    # f of four needle rollers rises by 13 % from rest: 6 % are missing after 1.7 half-widths, 1 % after 2.4
+    discarded=2.4,
     discarded_again=1.6,
 )
 
@@ -438,7 +439,8 @@ def _too_costly_in_words(number: int, forecast: float, most: float) -> str:
     """Return that the first steps in time, so many (``number``), ``forecast`` more work [s] than the ``most`` that is
     allowed."""
     return (
-        f"the roughness moves, and by its first {number} steps in time one strip would take at least {float(f'{forecast:.2g}'):g} s of "
+        f"the roughness moves, and by its first {number} steps in time one strip would take at least "
+        f"{float(f'{forecast:.2g}'):g} s of "
         f"counted work, more than {most:g} s; set numerics.model = 'deterministic' to solve it"
     )
 
@@ -490,7 +492,8 @@ def _note_of_motion(
     lower = sum(record.numbers["order"] < STEP_ORDERS[0] for record in records)
     by_lower = f"; {lower} step{'s' if lower > 1 else ''} by lower order" if lower else ""
     return (
-        f"the roughness moves at {speeds} m/s: mean over {len(records) - discarded} steps of {worded(step, 's')}, after {discarded} "
+        f"the roughness moves at {speeds} m/s: mean over {len(records) - discarded} steps of {worded(step, 's')}, "
+        f"after {discarded} "
         f"discarded ones; the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{by_lower}"
     )
 

@@ -193,7 +193,8 @@ def lay_out(
     dy = surface.spacing[1] * fy
     if ny % fy:
         raise InputError(
-            f"map_coarsening = {map_coarsening} does not divide the {ny} cells of the map along y; allowed: its divisors"
+            f"map_coarsening = {map_coarsening} does not divide the {ny} cells of the map along y; allowed: its "
+            "divisors"
         )
     check_number_of_cells(surface, line, map_coarsening, ends=ends)
     index = _columns_taken(surface, line, fx, ends)

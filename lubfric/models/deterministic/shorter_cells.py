@@ -40,9 +40,9 @@ from .strip_on_two_grids import (
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.shorter_cells`).
 
-# LU factorisations of a patch on shorter cells, at most [-]: those from a state nearby and from the dry contact. Of 128 such solves
-# of random patches of `python -m verification.campaigns.estimates` one took more, in steps in time, of which others took 150 to
-# 500. A choice: more solves a few of them, for ten times the work.
+# LU factorisations of a patch on shorter cells, at most [-]: those from a state nearby and from the dry contact. Of 128
+# such solves of random patches of `python -m verification.campaigns.estimates` one took more, in steps in time, of
+# which others took 150 to 500. A choice: more solves a few of them, for ten times the work.
 FACTORISATIONS_OF_SHORTER_CELLS = 90
 
 # LU factorisations of a short strip on shorter cells, at most, all from the solution on longer ones [-]: 11 to 36 on

@@ -65,13 +65,17 @@ class PaperModel(Model):
 
     def described(self, scene: Scene) -> str:
         width = "its model-form error is not known and not in the interval"
-        return f"{self.title} of the paper (numerics.model): fast; {width if why_gap_not_resolved(scene) else 'its interval is wide'}"
+        return (
+            f"{self.title} of the paper (numerics.model): fast; "
+            f"{width if why_gap_not_resolved(scene) else 'its interval is wide'}"
+        )
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         if why := why_gap_not_resolved(scene):
             return f"{self.title} alone: {why}; its model-form error is not known and not in the interval"
         return (
-            f"{self.title} alone where the film is thick or the surfaces are smooth; a point at which its model-form error is above "
+            f"{self.title} alone where the film is thick or the surfaces are smooth; a point at which its model-form "
+            "error is above "
             "numerics.model_tolerance, as may be in pure rolling, is solved by the next model"
         )
 

@@ -25,7 +25,8 @@ OUTSIDE = (
 
 # The same where numerics.model = 'auto' chose this model.
 OUTSIDE_OF_CHOSEN = (
-    "the cases on which the quick model is calibrated end there; its model-form error, which the interval of f contains, is increased "
+    "the cases on which the quick model is calibrated end there; its model-form error, which the interval of f "
+    "contains, is increased "
     "for this, at most three times"
 )
 

@@ -71,7 +71,10 @@ EXPECTED_CELLS = 2.3
 
 BY_LOAD_SHARING = "load-sharing model in place of the quick model"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
-NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick model is calibrated for flooded contacts only"
+NOT_FLOODED = (
+    "friction by Eq. (9), with the error of the load-sharing model: the quick model is calibrated for flooded "
+    "contacts only"
+)
 THICK_FILM_NOTE = (
     "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller"
 )
@@ -292,13 +295,15 @@ class QuickModel(Model):
             return f"{in_place}: the surfaces are smooth"
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
         return (
-            f"quick model (numerics.model): the deterministic model on {strips} with cells longer than its own (long cells), and an error "
+            f"quick model (numerics.model): the deterministic model on {strips} with cells longer than its own (long "
+            "cells), and an error "
             "calibrated on solved cases"
         )
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         return (
-            "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its own cells the deterministic model would take "
+            "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its own "
+            "cells the deterministic model would take "
             "too long"
         )
 

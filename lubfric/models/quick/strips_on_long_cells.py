@@ -76,7 +76,10 @@ LEAST_TOLERANCE = 0.1
 LEAST_CONTRAST = 0.05
 
 NARROWER = "set numerics.model = 'deterministic' to reduce the error of f; 'lubfric info' estimates the cost"
-CELLS_IN_MODEL_ERROR = "the error of the long cells (cells longer than those of the deterministic model) is in the model-form error, not in the numerical one"
+CELLS_IN_MODEL_ERROR = (
+    "the error of the long cells (cells longer than those of the deterministic model) is in the model-form error, "
+    "not in the numerical one"
+)
 BY_CELLS = "the long cells of the quick model, whose error is calibrated on {} contacts"
 
 

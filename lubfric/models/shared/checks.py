@@ -340,7 +340,8 @@ def violations_by_deflection(
     if not change > STRIP_SHARE:
         return
     why = (
-        "only its own pressure deflects the film: at low speeds the film carries too much load, and f stays below f_b; at other "
+        "only its own pressure deflects the film: at low speeds the film carries too much load, and f stays below "
+        "f_b; at other "
         "speeds f may be too low or too high"
     )
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
@@ -422,7 +423,8 @@ def violations_by_shear(
             value=share,
             limit=REFUSED_SHARE if severe else tolerance,
             unit="",
-            consequence=f"no oil carries such stresses; {law} reaches {shear.stress_ratio:.2g} times this limit, and gives the film "
+            consequence=f"no oil carries such stresses; {law} reaches {shear.stress_ratio:.2g} times this limit, and "
+            "gives the film "
             f"a friction coefficient of {of_film:.2g}",
             recommendation=recommendation,
             severe=severe,
@@ -471,7 +473,8 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             value=heat.peclet,
             limit=FAST_PECLET_NUMBER,
             unit="",
-            consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too high, and f is "
+            consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too "
+            "high, and f is "
             f"too low by at most {100 * heat.change:.2g} %, half of which its model-form error contains",
             recommendation="set numerics.heat = 'off' to see the other bound of f",
             is_note=heat.change <= scene.numerics.model_tolerance,
@@ -490,10 +493,13 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
             unit="%",
-            consequence="heat is not included, because the scene does not state how the viscosity falls with the temperature; the "
-            f"number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose viscosity falls by "
+            consequence="heat is not included, because the scene does not state how the viscosity falls with the "
+            "temperature; the "
+            f"number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose viscosity falls "
+            "by "
             f"{100 * coefficient:.2g} % per K",
-            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); set numerics.heat = "
+            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); "
+            "set numerics.heat = "
             "'off' to neglect heat without this warning",
             effect=change,
         )

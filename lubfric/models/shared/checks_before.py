@@ -90,14 +90,18 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
     """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to
     change."""
     return (
-        f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; "
+        f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an "
+        "interval; "
         f"{_ways_to_interval(scene, sample)}"
     )
 
 
 def why_map_too_small(tolerance: float, times: float) -> str:
     """Return that the map is too small for the sampling ``tolerance``, which needs so many ``times`` its area."""
-    return f"the map is too small for the requested {percent(tolerance)}, which needs about {float(f'{times:.2g}'):g} times its area"
+    return (
+        f"the map is too small for the requested {percent(tolerance)}, which needs about {float(f'{times:.2g}'):g} "
+        "times its area"
+    )
 
 
 def why_too_few_blocks(
@@ -117,9 +121,12 @@ def why_too_few_blocks(
     """
     (along, across) = blocks
     return (
-        f"sampling not known: the surface that passes the contact has {counted(along * across, 'nearly independent blocks')} ({along} along the "
-        f"motion x {across} along y), and an interval needs {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
-        f"({worded(scene.bodies.half_width, 'm')} at this load; a block needs {size_of_block[0]:g}) and {size[1]:.3g} correlation "
+        "sampling not known: the surface that passes the contact has "
+        f"{counted(along * across, 'nearly independent blocks')} ({along} along the "
+        f"motion x {across} along y), and an interval needs {needed}; it is {size[0]:.3g} half-widths of the Hertz "
+        "strip long "
+        f"({worded(scene.bodies.half_width, 'm')} at this load; a block needs {size_of_block[0]:g}) and "
+        f"{size[1]:.3g} correlation "
         f"lengths wide along y (a block needs {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
         "or a map that is longer along the motion"
     )
@@ -206,8 +213,14 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
     may_be_cut = not surface.periodic_axes[0] or _runs_on_patch(scene)
     if surface.sq == 0 or not may_be_cut or length >= needed:
         return
-    refuses = f"the load-sharing model refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns"
-    others = "the quick and the deterministic model continue the patch by its mirror image, and by default one of them then gives the answer"
+    refuses = (
+        f"the load-sharing model refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge "
+        "columns"
+    )
+    others = (
+        "the quick and the deterministic model continue the patch by its mirror image, and by default one of them "
+        "then gives the answer"
+    )
     longest = ""
     time = longest_contact(scene, surface.sq).time
     if scene.transient is not None:
@@ -215,14 +228,18 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
         longest = "" if time is None else f" at t = {worded(time, 's')}"
     cut = ""
     if is_measured(scene) and scene.contact.shape is None and whole.size[0] > length * UNCUT_LENGTH:
-        cut = f"the map, {worded(whole.size[0], 'm')} long, is cut to a whole number of the longer cells of this contact; "
+        cut = (
+            f"the map, {worded(whole.size[0], 'm')} long, is cut to a whole number of the longer cells of this "
+            "contact; "
+        )
     yield Violation(
         assumption=Assumption.LONG_PATCH,
         what="length of the patch along the motion",
         value=1e6 * length,
         limit=1e6 * needed,
         unit="µm",
-        consequence=f"{cut}the contact of the rough surfaces is longer than the patch{longest}, which may cut off its ends; {refuses}; "
+        consequence=f"{cut}the contact of the rough surfaces is longer than the patch{longest}, which may cut off "
+        f"its ends; {refuses}; "
         f"{others}",
         recommendation=f"give {way_to_longer_patch(scene, surface)}",
     )
@@ -252,7 +269,10 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: 
             continue
         name = f" ({source})" if source else ""
         sq = [f"{1e9 * left[key]:.4g} nm" for key in ("", form)]
-        why = f"Sq is {sq[0]} with this form and {sq[1]} without it, so film, contact and f are those of the form, not of the roughness"
+        why = (
+            f"Sq is {sq[0]} with this form and {sq[1]} without it, so film, contact and f are those of the form, not "
+            "of the roughness"
+        )
         file_advice = f"give {section}.form = {form!r}"
         yield Violation(
             assumption=Assumption.MAP_WITHOUT_FORM,
@@ -275,7 +295,8 @@ def violations_by_strips(deviation: float, explained: float) -> Iterator[Violati
             value=100 * abs(deviation),
             limit=100 * max(explained, LEAST_STRIP_DEVIATION),
             unit="%",
-            consequence=f"the solved strips are {'rougher' if deviation > 0 else 'smoother'} than the map by more than their size "
+            consequence=f"the solved strips are {'rougher' if deviation > 0 else 'smoother'} than the map by more "
+            "than their size "
             "explains: the map has a form, or its roughness differs from place to place",
             recommendation="remove the form (key form), or crop the map to the part that is in contact",
         )
@@ -387,7 +408,10 @@ def violations_by_map(
         )
     least = LEAST_LENGTHS_FOR_INTERVAL if longer else LEAST_PATCH_LENGTHS
     if lengths < least:
-        why = "the sample has few asperities: another patch of the same surface would give another f, and f may have no 95 % interval"
+        why = (
+            "the sample has few asperities: another patch of the same surface would give another f, and f may have "
+            "no 95 % interval"
+        )
         yield Violation(
             assumption=Assumption.LONG_SAMPLE,
             what="length of the sample along the line over the correlation length of the map",
@@ -418,7 +442,8 @@ SEPARATING = 3.0
 
 # What is added where the film may carry a part of the load alone.
 IF_ALL = (
-    "this estimate is for a film that carries the total load; where asperities carry a part of it, the share is smaller, and the "
+    "this estimate is for a film that carries the total load; where asperities carry a part of it, the share is "
+    "smaller, and the "
     f"result is refused only if the share is above {REFUSED_SHARE:g}"
 )
 

@@ -69,4 +69,7 @@ class Decision(Renamed):
         if self.coarsening == (1, 1):
             return f"{text}, as long as those of the map"
         fx, fy = self.coarsening
-        return f"{text}, each as long as {fx} x {fy} cells of the map; f is corrected for this ({percent(self.change_by_cells)})"
+        return (
+            f"{text}, each as long as {fx} x {fy} cells of the map; f is corrected for this "
+            f"({percent(self.change_by_cells)})"
+        )

@@ -219,7 +219,8 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
     where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
     others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
     return (
-        f"The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. {where}{others}, by closed forms, "
+        "The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. "
+        f"{where}{others}, by closed forms, "
         f"that of measured oils changes f by {largest}; {GIVE_ALPHA}."
     )
 
@@ -231,8 +232,10 @@ def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]
     if not largest:
         return ""
     return (
-        "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the fitted parameters; by "
-        f"closed forms, that of measured oils changes f by {at_most_in_words(largest)}; give lubricant.pressure_viscosity_coefficient"
+        "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the "
+        "fitted parameters; by "
+        f"closed forms, that of measured oils changes f by {at_most_in_words(largest)}; give "
+        "lubricant.pressure_viscosity_coefficient"
     )
 
 
@@ -243,7 +246,8 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
     if not largest:
         return ""
     return (
-        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed forms, that of "
+        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed "
+        "forms, that of "
         f"measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
     )
 
@@ -256,10 +260,14 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
         return ""
     (low, high) = (1e9 * alpha for alpha in _ends_of_alpha(scene))
     return (
-        f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the interval of f does "
-        f"not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {worded(peak_hertz_pressure(scene), 'Pa')} it may change "
-        f"f by {at_most_in_words(largest)}, as long as the asperity load ratio is not known; the report states what remains for "
-        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to remove it, or "
+        f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
+        "interval of f does "
+        f"not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of "
+        f"{worded(peak_hertz_pressure(scene), 'Pa')} it may change "
+        f"f by {at_most_in_words(largest)}, as long as the asperity load ratio is not known; the report states what "
+        "remains for "
+        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to "
+        "remove it, or "
         "[value, low, high] to have the change solved and in the interval"
     )
 
@@ -271,7 +279,8 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
     if not largest:
         return ""
     return (
-        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (that of measured oils changes f by "
+        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (that of measured "
+        "oils changes f by "
         f"{at_most_in_words(largest)})"
     )
 
@@ -442,7 +451,8 @@ def _of_film(
         effects.append(
             UnmodelledEffect(
                 what=(
-                    f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, the range of measured oils, "
+                    f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, the "
+                    "range of measured oils, "
                     "in place of the estimate"
                 ),
                 change=max(by_alpha),
@@ -473,7 +483,8 @@ def _of_film(
                     what="half or twice the correlation length of the roughness, which no drawing states",
                     change=math.nan,
                     recommendation=(
-                        "give a measured height map, or vary surface.correlation_length in a study; under heavy loads it may change f by "
+                        "give a measured height map, or vary surface.correlation_length in a study; under heavy "
+                        "loads it may change f by "
                         "more than its interval"
                     ),
                 )
@@ -492,7 +503,8 @@ def _of_film(
                 what="a thin soft cover, and its damping",
                 change=math.nan,
                 recommendation=(
-                    f"the body is modelled as solid; if it is a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, "
+                    "the body is modelled as solid; if it is a cover thinner than "
+                    f"{1e3 * DEEP * line.half_width:.2g} mm, "
                     "give e_prime such that the contact is as wide as measured"
                 ),
             )

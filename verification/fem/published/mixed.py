@@ -37,7 +37,10 @@ GEAR_LENGTHS = (20e-6, 40e-6)  # m: correlation lengths of ground flanks; those 
 GEAR_PLACES = 5  # along the path of contact
 BEARING_SPEEDS = (30, 60, 120)  # rpm
 # the asperity load ratio of lubfric where it differs from SKF's weight, by rpm
-SKF_WEIGHS = "SKF weighs the friction of all sliding contacts of a bearing, flange and cage among them; their accuracy is not stated"
+SKF_WEIGHS = (
+    "SKF weighs the friction of all sliding contacts of a bearing, flange and cage among them; their accuracy is not "
+    "stated"
+)
 BEARING_DIFFERS = {
     30: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.35, high=0.41),
     60: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.02, high=0.055),
@@ -61,7 +64,10 @@ def mixed(level: str) -> Iterator[Item]:
         half = (b - a) / (a + b)
         note = "not independent: the boundary film of 20 nm was chosen as the nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
-            note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; lubfric's roughness is at rest"
+            note = (
+                "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; lubfric's roughness "
+                "is at rest"
+            )
         listed = listed_near(0.938, "ours", note, within=0.03) if ratio == 0.2 else None
         yield against("shares", name, value, (a + b) / 2, error / value, note=note, error=half, listed=listed)
     at = RATIOS.index(1.0)
