@@ -4,7 +4,6 @@ table of report.html."""
 from __future__ import annotations
 
 from collections import Counter
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from ..studies import (
     operating_keys,
 )
 from ..units import beside_interval, interval_in_words, with_interval
-from .markup import INTERVAL_OF_F, table
+from .markup import INTERVAL_OF_F, plain_cells, table
 
 # Combinations that a sentence names. A choice: more makes a table of a text.
 MOST_NAMED = 3
@@ -155,9 +154,8 @@ def best_table(result: StudyResult) -> str:
     for one in best_ones[:MOST_CONDITIONS]:
         f = beside_interval(one.value, *one.interval)
         interval = interval_in_words(*one.interval, value=one.value)
-        texts = (condition_in_words(one.condition), values_in_words(one.design), f, interval, str(one.row))
-        cells = "".join(f"<td>{escape(text)}</td>" for text in texts)
-        rows.append(f"{cells}<td>{escape(_rivals_in_words(one))}</td>")
+        design = (condition_in_words(one.condition), values_in_words(one.design))
+        rows.append(plain_cells([*design, f, interval, str(one.row), _rivals_in_words(one)]))
     heads = [
         "operating condition",
         "design with the lowest f",

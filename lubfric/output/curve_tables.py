@@ -13,7 +13,7 @@ from .budget_bars import budget_labels
 from .curve_answer import largest_error_of_points, model_of_point
 from .describe import is_among
 from .films_in_words import LOADS, films_at_limit, note_on_touching
-from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, column_heading, number_cells, number_or_dash, table
+from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, Cell, column_heading, number_cells, number_or_dash, table
 from .operating_point import operating_point_of
 from .rolling_part import heading_of_rolling, is_tabled, rolling_part
 
@@ -50,8 +50,8 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
         if len(curve.points) > 1 and is_among(operating_point_of(scene, swept), [values[swept][index]]):
             place += OPERATING_POINT
         if point is None:
-            why = escape(str(curve.errors[index]))
-            rows.append(f'{number_cells([place])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
+            why = Cell(text=str(curve.errors[index]), kind="warning", columns=len(heads) - 1)
+            rows.append([*number_cells([place]), why])
             continue
         low, high = point.uncertainty.interval
         f = beside_interval(point.coefficient, low, high)

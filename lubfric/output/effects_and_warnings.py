@@ -9,7 +9,7 @@ from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledE
 from ..studies import CurveResult
 from ..time import TransientResult, effects_of_run, rolls
 from .describe import SceneEstimate
-from .markup import bullets, folded_notes, table
+from .markup import NUMBER, Cell, bullets, folded_notes, plain_cells, table
 from .operating_point import place_on_curve
 
 # What the page has where there are no warnings.
@@ -33,13 +33,12 @@ def effects_table(
     ``moments``: of a run in time, when each is largest."""
     if not effects:
         return f"<p>Each known effect changes f {escape(place)} by less than the numerical tolerance.</p>"
-    cells = [f"<td>{escape(text)}</td>" for text in moments] or [""] * len(effects)
-    rows = [
-        f"<td>{escape(sentence(effect.what))}</td>"
-        f'<td class="number">{effect.change_in_words}</td>'
-        f"{moment}<td>{escape(sentence(effect.recommendation))}</td>"
-        for effect, moment in zip(effects, cells)
-    ]
+    rows = []
+    for index, effect in enumerate(effects):
+        row = [Cell(text=sentence(effect.what)), Cell(text=effect.change_in_words, kind=NUMBER)]
+        row += plain_cells(moments[index : index + 1])
+        row += plain_cells([sentence(effect.recommendation)])
+        rows.append(row)
     head = f"<p>Likely changes of f {escape(place)}{which}, estimated with closed forms.</p>"
     heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
     return head + table(heads, rows, in_sentences=True)

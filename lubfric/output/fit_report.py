@@ -20,7 +20,7 @@ from .curve_answer import model_in_words
 from .effects_and_warnings import effects_table, warnings_and_notes
 from .inputs import INPUT_SECTIONS
 from .inputs_as_given import inputs_as_given
-from .markup import bullets, number_cells, paragraphs, picture, table
+from .markup import Cell, bullets, number_cells, paragraphs, picture, table
 from .methods import facts_table, scene_in_words
 from .page import framed
 from .status import status_kind
@@ -193,9 +193,7 @@ def _parameters_table(result: FitResult) -> str:
             if not move or (key in result.profiles and result.profiles[key].is_flat)
             else in_unit_of(float(move), result.values[key], unit if key != OIL_TEMPERATURE else "K"),
         ]
-        body = number_cells(cells)
-        parts = escape(key).replace(".", ".<wbr>").replace("_", "_<wbr>")  # a narrow column breaks the key there
-        rows.append(f'<td>{escape(_label(key))}<br><span class="key">{parts}</span></td>{body}')
+        rows.append([Cell(text=_label(key), below=key), *number_cells(cells)])
     heads = [
         "parameter",
         "fitted value",

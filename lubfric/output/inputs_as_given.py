@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Container
-from html import escape
 from itertools import cycle
 from typing import Any
 
@@ -11,7 +10,7 @@ from ..quantities import KEYS
 from ..scene import Scene, short_keys, toml_value
 from ..units import worded
 from .inputs import FACTS, inputs, range_in_words
-from .markup import bullets, table
+from .markup import bullets, row_with_key, table
 
 # A radius that is infinite: the one input that may be.
 PLANE = "a plane"
@@ -38,16 +37,13 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
         if name in shown:
             source = _given(name, shown.pop(name))
         source = BY_FIT if key in fitted else source
-        cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
-        rows.append(cells)
+        rows.append(row_with_key(label, text + note, source))
     for name, value in shown.items():
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
         if f"{section}.{name}" in fitted:
             continue
         used = _used_in_words(scene, f"{section}.{name}", value)
-        rows.append(
-            f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
-        )
+        rows.append(row_with_key(label, used, _given(name, value)))
     facts = bullets([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
     heads = ["quantity", "value used", "given as"]
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts

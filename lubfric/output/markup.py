@@ -3,6 +3,7 @@
 import base64
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from html import escape
 
 from ..quantities import COLUMNS
@@ -16,6 +17,28 @@ ASPERITY_LOAD_RATIO = "asperity load ratio F_C/F_T"
 NARROW_COLUMNS = 3
 # Columns of a table from which on its numbers may wrap, so that it fits a page. A choice, by looking at the report.
 MANY_COLUMNS = 8
+# Class of a cell that has a number.
+NUMBER = "number"
+# Class of a cell that has the key of an input, or where a value is from.
+KEY = "key"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """A cell of a table.
+
+    text : what it shows, not escaped
+    kind : its class, `NUMBER` or `KEY`; "" if it has none
+    below : text in the style of a key on a line of its own, which may be broken at its dots and underscores
+    columns : how many columns it spans
+    style : its CSS; "" if it has none
+    """
+
+    text: str
+    kind: str = ""
+    below: str = ""
+    columns: int = 1
+    style: str = ""
 
 
 def paragraphs(sentences: Iterable[str]) -> str:
@@ -44,8 +67,8 @@ def picture(content: bytes, caption: str) -> str:
     return f'<figure><img alt="{text}" src="data:image/png;base64,{data}"><figcaption>{text}</figcaption></figure>'
 
 
-def table(heads: Sequence[str], rows: Sequence[str], *, in_sentences: bool = False) -> str:
-    """Return a table that scrolls by itself where it is wider than the page. On a narrow screen each row of more than
+def table(heads: Sequence[str], rows: Sequence[Sequence[Cell]], *, in_sentences: bool = False) -> str:
+    """Return a table of ``rows`` that scrolls by itself where it is wider than the page. On a narrow screen each row of more than
     `NARROW_COLUMNS`, or of sentences, becomes a list in which every cell has its heading before it, so that nothing is
     cut."""
     kind = ' class="wide"' if len(heads) > NARROW_COLUMNS or in_sentences else ""
@@ -53,28 +76,52 @@ def table(heads: Sequence[str], rows: Sequence[str], *, in_sentences: bool = Fal
     kinds = _kinds_of_heads(heads, rows)
     head = "".join(f"<th{of_head}>{escape(text)}</th>" for text, of_head in zip(heads, kinds))
     head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
-    body = "".join(f"<tr>{_labelled(heads, row)}</tr>" for row in rows)
+    body = "".join(f"<tr>{_cells_in_html(heads, row)}</tr>" for row in rows)
     return f'<div class="scroll"><table{kind}>{head}<tbody>{body}</tbody></table></div>'
 
 
-def _kinds_of_heads(heads: Sequence[str], rows: Sequence[str]) -> list[str]:
+def _kinds_of_heads(heads: Sequence[str], rows: Sequence[Sequence[Cell]]) -> list[str]:
     """Return the class of each heading as an attribute: that of a number, at the right, where its cells are numbers."""
-    longest = max(rows, key=lambda row: row.count("<td"), default="")  # the row of a failed point joins cells
-    number = ' class="number"'
-    kinds = [number if cell.startswith(number) else "" for cell in longest.split("<td")[1:]]
+    longest = max(rows, key=len, default=())  # the row of a failed point joins cells
+    kinds = [f' class="{NUMBER}"' if cell.kind == NUMBER else "" for cell in longest]
     return kinds + [""] * (len(heads) - len(kinds))
 
 
-def _labelled(heads: Sequence[str], row: str) -> str:
+def _cells_in_html(heads: Sequence[str], row: Sequence[Cell]) -> str:
     """Return a ``row`` of cells, each with its heading as an attribute."""
-    first, *cells = row.split("<td")
-    labels = [escape(head) for head in heads] + [""] * len(cells)
-    return first + "".join(f'<td data-label="{label}"{cell}' for label, cell in zip(labels, cells))
+    labels = [*heads, *[""] * len(row)]
+    return "".join(_cell_in_html(cell, label) for cell, label in zip(row, labels))
 
 
-def number_cells(texts: Iterable[str]) -> str:
+def _cell_in_html(cell: Cell, label: str) -> str:
+    """Return a ``cell`` below the heading ``label``."""
+    attributes = f' data-label="{escape(label)}"'
+    if cell.columns > 1:
+        attributes += f' colspan="{cell.columns}"'
+    if cell.kind:
+        attributes += f' class="{cell.kind}"'
+    if cell.style:
+        attributes += f' style="{cell.style}"'
+    below = ""
+    if cell.below:
+        breakable = escape(cell.below).replace(".", ".<wbr>").replace("_", "_<wbr>")
+        below = f'<br><span class="{KEY}">{breakable}</span>'
+    return f"<td{attributes}>{escape(cell.text)}{below}</td>"
+
+
+def plain_cells(texts: Iterable[str]) -> list[Cell]:
+    """Return the cells of a row of ``texts``."""
+    return [Cell(text=text) for text in texts]
+
+
+def number_cells(texts: Iterable[str]) -> list[Cell]:
     """Return the cells of a row of numbers, which are ``texts``."""
-    return "".join(f'<td class="number">{escape(text)}</td>' for text in texts)
+    return [Cell(text=text, kind=NUMBER) for text in texts]
+
+
+def row_with_key(label: str, value: str, key: str) -> list[Cell]:
+    """Return a row of a quantity's ``label``, its ``value``, and its ``key`` or where the value is from."""
+    return [Cell(text=label), Cell(text=value), Cell(text=key, kind=KEY)]
 
 
 def column_heading(name: str, unit: str) -> str:

@@ -12,7 +12,7 @@ from ..time import TransientResult
 from ..units import worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import over_the_run
-from .markup import bullets, number_cells, table
+from .markup import KEY, Cell, bullets, number_cells, table
 from .operating_point import nearest_solved
 
 
@@ -87,5 +87,4 @@ def made_table(record: dict[str, Any]) -> str:
 
 def facts_table(rows: Iterable[tuple[str, Any]]) -> str:
     """Return the table of facts on how a result was computed; ``rows``: pairs of a name and a value."""
-    cells = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
-    return table(("", ""), cells)
+    return table(("", ""), [[Cell(text=name), Cell(text=str(value), kind=KEY)] for name, value in rows])

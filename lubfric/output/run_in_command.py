@@ -22,7 +22,7 @@ from ..units import converted, number_of, plain_number, printed, unit_for, with_
 from .command_line import scene_of
 from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, references, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
-from .markup import number_cells, picture, table
+from .markup import number_cells, picture, row_with_key, table
 from .page import framed
 from .progress import ProgressLine
 from .run_files import BIBTEX_FILE
@@ -186,10 +186,7 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
         f"<h3>{section}</h3>"
         + table(
             ["quantity", "value", "key"],
-            [
-                f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
-                for label, text, key, note in inputs(scene, section)
-            ],
+            [row_with_key(label, text + note, key) for label, text, key, note in inputs(scene, section)],
         )
         for section in INPUT_SECTIONS
         if list(inputs(scene, section))

@@ -1,7 +1,7 @@
 """The inputs of a study: those that are varied, and those that all points share."""
 
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import replace
-from html import escape
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from ..scene import Scene
 from ..studies import StudyPlan, StudyResult, name_of, scenes_of
 from ..units import converted, printed, unit_of_largest
 from .inputs import INPUT_SECTIONS, inputs
-from .markup import table
+from .markup import Cell, row_with_key, table
 
 
 def range_in_a_line(key: str, values: np.ndarray) -> str:
@@ -36,26 +36,41 @@ def common_inputs(result: StudyResult | StudyPlan) -> str:
     parts = []
     scene, *others = _scenes_at_ends(result if isinstance(result, StudyPlan) else result.plan)
     for section in INPUT_SECTIONS:
-        everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
-        rows = [
-            f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
-            for label_, text, key, note in inputs(scene, section)
-            if key not in varied and section not in whole_sections
-            if all((key, text, note) in alike for alike in everywhere)
-        ]
-        if section not in whole_sections:
-            rows += [
-                f'<td>{escape(key.partition(".")[2].replace("_", " "))}</td><td>{escape(value)}</td><td class="key">{key}</td>'
-                for key in CHOICES
-                if key.startswith(f"{section}.") and key not in varied
-                if len({getattr(getattr(each, section), key.partition(".")[2], None) for each in (scene, *others)}) == 1
-                if isinstance(value := getattr(getattr(scene, section), key.partition(".")[2], None), str)
-            ]
-        if section == "lubricant" and scene.lubricant.oil is not None and section not in whole_sections:
+        if section in whole_sections:
+            continue
+        rows = _common_numbers(scene, others, section, varied)
+        rows += _common_choices((scene, *others), section, varied)
+        if section == "lubricant" and scene.lubricant.oil is not None:
             names = {"" if each.lubricant.oil is None else each.lubricant.oil.name for each in (scene, *others)}
-            rows += [f"<td>oil</td><td>{escape(name)}</td><td></td>" for name in names if len(names) == 1]
-        parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
+            rows += [row_with_key("oil", name, "") for name in names if len(names) == 1]
+        if rows:
+            parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}")
     return "".join(parts)
+
+
+def _common_numbers(scene: Scene, others: Iterable[Scene], section: str, varied: Container[str]) -> list[list[Cell]]:
+    """Return the rows of the inputs of a ``section`` that are not ``varied`` and the same in ``scene`` and the
+    ``others``."""
+    everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
+    return [
+        row_with_key(label, text + note, key)
+        for label, text, key, note in inputs(scene, section)
+        if key not in varied and all((key, text, note) in alike for alike in everywhere)
+    ]
+
+
+def _common_choices(scenes: Sequence[Scene], section: str, varied: Container[str]) -> list[list[Cell]]:
+    """Return the rows of the keys of a ``section`` that are words, not ``varied``, and the same in all ``scenes``."""
+    rows = []
+    for key in CHOICES:
+        (of_section, _, name) = key.partition(".")
+        if of_section != section or key in varied:
+            continue
+        values = {getattr(getattr(scene, section), name, None) for scene in scenes}
+        value = values.pop()
+        if not values and isinstance(value, str):
+            rows.append(row_with_key(name.replace("_", " "), value, key))
+    return rows
 
 
 def _scenes_at_ends(plan: StudyPlan) -> list[Scene]:

@@ -20,7 +20,7 @@ from ..units import (
     with_interval,
     worded,
 )
-from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, number_cells, table
+from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, NUMBER, Cell, number_cells, table
 from .rolling_part import heading_of_rolling, is_tabled, rolling_part
 from .study_points import error_in_words, parts_of_error, scene_of_each
 
@@ -39,8 +39,8 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
 }
 # Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their
 # interval.
-UNBROKEN = ' style="white-space: nowrap"'
-TWO_LINES = ' style="min-width: 9em"'
+UNBROKEN = "white-space: nowrap"
+TWO_LINES = "min-width: 9em"
 # Digits of what is varied, which is exact. A choice: less makes neighbours alike.
 CELL_DIGITS = 4
 # Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
@@ -91,13 +91,14 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
     if any(each.numbers for each in warnings):
         heads.append("warnings")
         cells.append([_numbers_of_warnings(warnings, row + 1) for row in picked])
-    why = f'<td colspan="{len(heads) - inputs_alone}" class="warning">'
     failures = set(result.failures)
     body = []
     for row, status in zip(zip(*cells), columns["status"][picked].tolist()):
         numbers = row[:inputs_alone] if status in failures else row
-        texts = "".join(_number_cell(text, is_interval=i == place_of_interval) for i, text in enumerate(numbers))
-        body.append(f"{texts}{why}{escape(status)}</td>" if status in failures else texts)
+        line = [_number_cell(text, is_interval=i == place_of_interval) for i, text in enumerate(numbers)]
+        if status in failures:
+            line.append(Cell(text=status, kind="warning", columns=len(heads) - inputs_alone))
+        body.append(line)
     return table(heads, body)
 
 
@@ -118,11 +119,11 @@ def _rolling_column(
     return [[_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]]
 
 
-def _number_cell(text: str, *, is_interval: bool) -> str:
+def _number_cell(text: str, *, is_interval: bool) -> Cell:
     """Return a cell of a number, or of an interval, which is not broken."""
     style = TWO_LINES if "(" in text else ""
     style = UNBROKEN if is_interval else style
-    return f'<td class="number"{style}>{escape(text)}</td>'
+    return Cell(text=text, kind=NUMBER, style=style)
 
 
 def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
