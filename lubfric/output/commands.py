@@ -408,8 +408,8 @@ class RunFolder:
     last says that the others are complete.
 
     ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone.
-    ``is_needed``: whether runs of the same states still need it. ``map_checksums``: of the height maps that were read,
-    by path.
+    ``is_needed``: whether runs of the same states still need it. ``continues``: whether an interrupted run is continued.
+    ``map_checksums``: of the height maps that were read, by path.
     """
 
     def __init__(self, path: Path, begun: CommandStart, fingerprint: str, states: str):
@@ -418,6 +418,7 @@ class RunFolder:
         self.fingerprint = fingerprint
         self.unfinished = path / UNFINISHED / states[:16]
         self.is_needed = False
+        self.continues = False
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
         self.map_checksums: dict[str, str] = {}
@@ -475,6 +476,7 @@ class RunFolder:
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
             "seconds": self.begun.seconds,
             "processor_seconds": self.begun.processor_seconds,
+            "continued": self.continues,
             "hash": self.fingerprint,
             "report": result.report.as_dict(),
             "validity": result.validity,

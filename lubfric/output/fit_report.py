@@ -327,8 +327,8 @@ def _made(record: Mapping[str, Any]) -> str:
         *versions.items(),
         *((f"SHA-256 of {path}", checksum) for path, checksum in record["sha256"].items()),
         ("curves of the fit, without those of the search", record["curves"]),
-        ("wall-clock time", f"{record['seconds']:.3g} s"),
-        ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
+        ("wall-clock time of the last call", plain_number(record["seconds"], "s")),
+        ("processor time, all processes together, of the last call", plain_number(record["processor_seconds"], "s")),
     ]
     note = (
         f"<p><code>{escape(record['command'])}</code> computes the same numbers with the versions and files below. "

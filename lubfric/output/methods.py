@@ -9,7 +9,7 @@ from ..models.shared import Prepared, sentence
 from ..scene import Scene
 from ..studies import CurveResult
 from ..time import TransientResult
-from ..units import worded
+from ..units import plain_number, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import over_the_run
 from .markup import KEY, Cell, bullets, number_cells, table
@@ -73,8 +73,7 @@ def made_table(record: dict[str, Any]) -> str:
             if record["seed"] is None
             else [("seed of the scene (surface.seed), from which those of the strips follow", record["seed"])]
         ),
-        ("wall-clock time of the run", f"{record['seconds']:.3g} s"),
-        ("processor time, all processes together", f"{record['processor_seconds']:.3g} s"),
+        *_times(record),
         ("solver", record["report"]["solver"]),
     ]
     note = (
@@ -83,6 +82,24 @@ def made_table(record: dict[str, Any]) -> str:
         "below.</p>"
     )
     return note + facts_table(rows)
+
+
+def _times(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return the times of a run: of its points, each as it was solved, and of the command."""
+    continues = record["continued"]
+    of_call = " of the last call, which continued an interrupted run" if continues else " of the run"
+    rows = []
+    if "points_seconds" in record:
+        together = plain_number(record["points_seconds"], "s")
+        rows.append(("wall-clock time of all points together, each as it was solved", together))
+    if continues and "points_read" in record:
+        known = f"{record['points_read']} of {len(record['points'])}"
+        rows.append(("points that the interrupted run had solved", known))
+    return [
+        *rows,
+        (f"wall-clock time{of_call}", plain_number(record["seconds"], "s")),
+        (f"processor time, all processes together{of_call}", plain_number(record["processor_seconds"], "s")),
+    ]
 
 
 def facts_table(rows: Iterable[tuple[str, Any]]) -> str:

@@ -24,7 +24,7 @@ from ..scene import (
     given_tables,
     has_moving_roughness,
 )
-from ..units import with_interval
+from ..units import plain_number, with_interval
 from .commands import (
     RepeatedRun,
     RunFolder,
@@ -87,7 +87,8 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, kept_by="stribeck", speeds=speeds)
         with begun as (folder, prepared, estimate), progress_to(moment_reports()):
             requested = () if speeds == studies.AUTO_SPEEDS else speeds
-            known = studies.count_of_kept(folder.unfinished, prepared, requested)
+            known = studies.count_of_kept(folder.unfinished, prepared, requested, chosen)
+            folder.continues = known > 0
             _say_known(known, len(requested), arguments.out)
 
             def on_point(*point: Any) -> None:
@@ -108,7 +109,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
                 raise_on_failure=False,
             )
             folder.is_needed = not studies.is_all_solved(folder.unfinished)
-            _write(folder, prepared, curve, arguments, estimate, chosen, measured)
+            _write(folder, prepared, curve, arguments, estimate, chosen, measured, known)
     _raise_if_failed(curve)
 
 
@@ -119,10 +120,12 @@ def _kept_in_words(count: int, total: int | str, out: Path) -> str:
 
 
 def _say_known(known: int, total: int, out: Path) -> None:
-    """Say how many of ``total`` points an interrupted run has solved in the folder ``out``; nothing for none."""
+    """Say how many of ``total`` points (0: the curve chooses them) an interrupted run has solved in the folder ``out``;
+    nothing for none."""
     if known:
         verb = "is" if known == 1 else "are"
-        say(f"{known} of {counted(total, 'points')} {verb} solved already, by an interrupted run in {out}")
+        points = f"{known} of {counted(total, 'points')}" if total else counted(known, "points")
+        say(f"{points} {verb} solved already, by an interrupted run in {out}")
 
 
 def _workers(arguments: Namespace, scene: Scene, points: str | list[float]) -> int:
@@ -171,11 +174,9 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     begun = run_begun(scene, arguments, names, kept, ratios, "traction", kept_by="traction", ratios=ratios)
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate), progress_to(moment_reports()):
         keys = studies.keys_of_ratios(prepared, ratios)
-        _say_known(
-            studies.count_of_kept_ratios(folder.unfinished, prepared.scene.motion.entrainment_speed, keys),
-            len(ratios),
-            arguments.out,
-        )
+        known = studies.count_of_kept_ratios(folder.unfinished, prepared.scene.motion.entrainment_speed, keys)
+        folder.continues = known > 0
+        _say_known(known, len(ratios), arguments.out)
 
         def on_point(*point: Any) -> None:
             if not ended:
@@ -193,7 +194,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
             workers=workers,
         )
         folder.is_needed = not studies.is_all_solved(folder.unfinished)
-        _write(folder, prepared, curve, arguments, estimate, [], measured)
+        _write(folder, prepared, curve, arguments, estimate, [], measured, known)
         notes = gap_notes(curve)
         for note in notes[:MOST_GAPS]:
             say(f"note: {note}")
@@ -210,9 +211,11 @@ def _write(
     estimate: SceneEstimate,
     chosen: list[float],
     measured: studies.Measured | None,
+    points_read: int,
 ) -> None:
     """Write the table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was
-    requested. ``estimate``: before it was solved; ``measured``: drawn with the curve."""
+    requested. ``estimate``: before it was solved; ``measured``: drawn with the curve; ``points_read``: number of the
+    points that an interrupted run had solved."""
     name = table_of(curve)
     contents = folder.contents
     table = f"{name}.csv"
@@ -242,10 +245,18 @@ def _write(
     with folder.reporting("report.html does not show how the inputs were given"):
         given = given_tables(arguments.scene)
     again = _repeated(prepared.scene, curve, arguments)
-    own = operating_point_of(prepared.scene, curve.SWEPT[0])
-    folder.complete(
-        prepared, estimate, given, curve, units, law, unusual_values, again, points=numbers, operating_point=own
-    )
+    of_record = {
+        "points": numbers,
+        "operating_point": operating_point_of(prepared.scene, curve.SWEPT[0]),
+        "points_seconds": curve.total_seconds,
+        "points_read": points_read,
+    }
+    if points_read:
+        unusual_values.append(
+            f"wall-clock time of all points together, each as it was solved: {plain_number(curve.total_seconds, 's')}; points that the "
+            f"interrupted run had solved: {points_read} of {len(curve.points)}"
+        )
+    folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, **of_record)
 
 
 def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) -> RepeatedRun:

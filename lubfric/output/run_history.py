@@ -80,6 +80,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     begun = commands.run_begun(scene, arguments, names, kept)
     with begun as (folder, prepared, estimate):
         continues = folder.unfinished.is_dir()
+        folder.continues = continues
         if continues:
             commands.say(f"the run continues from {folder.unfinished}")
         assert estimate.run is not None

@@ -45,7 +45,7 @@ from .progress import ProgressLine
 from .run_files import BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY
 from .study_answer import answer_lines, numbered_point, planned_point_in_words
 from .study_pictures import STUDY_PICTURE, plot_study
-from .study_report import study_page
+from .study_report import study_page, times_in_words
 from .study_warnings import tolerance_lines, warning_lines
 from .time_left import TimeLeft
 
@@ -68,7 +68,7 @@ def run_study(arguments: Namespace) -> None:
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     others = (STUDY_PICTURE, "report.html", BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY)
     check_outputs(arguments, arguments.out, [*names, *others])
-    (explanation, expected) = studies.explained(plan, arguments.out, workers=workers)
+    (explanation, expected, known) = studies.explained(plan, arguments.out, workers=workers)
     say(explanation)
     begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
@@ -93,13 +93,13 @@ def run_study(arguments: Namespace) -> None:
         rows: list[str] = []
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
-        folder.add("report.html", study_page, result, folder.contents, rows)
+        folder.add("report.html", study_page, result, folder.contents, rows, known)
         if np.isfinite(result["coefficient"]).any():
             folder.add(BIBTEX_FILE, lambda: references(result))
         folder.add(RESOLVED_SCENE, lambda: plan.scene.to_toml(arguments.out).encode())
         folder.add(RESOLVED_STUDY, lambda: plan.to_toml(RESOLVED_SCENE).encode())
         folder.put()
-    for row in (*rows, *tolerance_lines(result)):
+    for row in (*rows, *tolerance_lines(result), *([times_in_words(result, known)] if known else [])):
         say(row)
     if result.failed:
         report = Report(

@@ -9,6 +9,7 @@ from .._base import __version__
 from ..models.shared import sentence
 from ..quantities import RADII_OF_SURFACES
 from ..studies import StudyResult, columns_of_study
+from ..units import plain_number
 from .best_designs import best_table
 from .effects_and_warnings import NO_WARNINGS, effects_table
 from .films_in_words import films_at_limit, note_on_touching
@@ -24,8 +25,9 @@ from .study_warnings import counts_of_warnings, numbered_warnings, why_no_interv
 CAPTION = "The results of the study"
 
 
-def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str]) -> bytes:
-    """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
+def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str], known: int = 0) -> bytes:
+    """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text;
+    ``known``: number of points that earlier calls solved."""
     import scipy
 
     warnings = numbered_warnings(result)
@@ -57,6 +59,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             version=__version__,
             numpy=np.__version__,
             scipy=scipy.__version__,
+            times=escape(times_in_words(result, known)),
             kind=status_of_study(result).kind(failed=result.failed > 0),
             status=escape(study_in_words(result)),
             answer="".join(
@@ -74,6 +77,13 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             sources=methods_to_quote(_common_facts(result), result) + _list(result.cite().splitlines()),
         ),
     )
+
+
+def times_in_words(result: StudyResult, known: int) -> str:
+    """Return the time that the points of a study took in a sentence, and how many of them were ``known``, from earlier
+    calls, in another; identical ones count once."""
+    text = f"Wall-clock time of all points together, each as it was solved: {plain_number(result.total_seconds, 's')}."
+    return f"{text} Points that earlier calls solved: {known}." if known else text
 
 
 def _common_facts(result: StudyResult) -> list[str]:

@@ -62,6 +62,11 @@ class CurveResult(Renamed, Shown):
         rows = [missing if point is None else point.power_loss_interval for point in self.points]
         return np.array(rows).reshape(-1, 2)
 
+    @property
+    def total_seconds(self) -> float:
+        """Wall-clock time of all points together [s], each as it was solved, also by an earlier call."""
+        return float(np.nansum(self["seconds"]))
+
     def violations(self, index: int) -> tuple[Violation, ...]:
         """Return the assumptions that are violated at a point, refused or not."""
         return violations_of(self.points[index], self.errors.get(index))

@@ -220,8 +220,11 @@ def explain(plan: Any, store: Path | None = None, *, workers: int = 1) -> str:
     return explained(plan, store, workers=workers)[0]
 
 
-def explained(plan: Any, store: Path | None = None, *, workers: int = 1) -> tuple[str, dict[tuple[str, Any], float]]:
-    """Return what `explain` does, and the estimated processor seconds of each point that is left, as `Left.points`."""
+def explained(
+    plan: Any, store: Path | None = None, *, workers: int = 1
+) -> tuple[str, dict[tuple[str, Any], float], int]:
+    """Return what `explain` does; the estimated processor seconds of each point that is left, as `Left.points`; and the
+    number of points that the folder ``store`` has, identical ones counted once."""
     about = "about " if plan.chooses_speeds else ""
     different = plan.points if plan.chooses_speeds else sum(map(len, plan.requested.values()))
     once = f", {different} of them different: identical ones are solved once" if different < plan.points else ""
@@ -259,7 +262,7 @@ def explained(plan: Any, store: Path | None = None, *, workers: int = 1) -> tupl
         )
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
-        return "\n".join([*lines, "  time     nothing is left to solve"]), {}
+        return "\n".join([*lines, "  time     nothing is left to solve"]), {}, table.solved
     left = _left(plan, table)
     lines += [f"  {text}" for text in (*warnings_of(plan), *left.warnings)]
     lines += [f"  interval {left.alpha}"] if left.alpha else []
@@ -271,7 +274,7 @@ def explained(plan: Any, store: Path | None = None, *, workers: int = 1) -> tupl
         )
         lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")
     lines += [f"  {text}" for text in _time_in_words(left, workers, "curves" if plan.chooses_speeds else "points")]
-    return "\n".join([*lines, *dict.fromkeys(left.failed)]), left.points
+    return "\n".join([*lines, *dict.fromkeys(left.failed)]), left.points, table.solved
 
 
 def _time_in_words(left: Left, workers: int, what: str) -> Iterator[str]:

@@ -126,6 +126,13 @@ class StudyResult(Renamed, Shown):
         return int(np.count_nonzero(~np.isin(self.status, (MISSING, UNUSED))))
 
     @property
+    def total_seconds(self) -> float:
+        """Wall-clock time of all points together [s], each as it was solved, also by an earlier call; of identical
+        points that of one."""
+        (_, different) = np.unique(self.plan.keys, return_index=True)
+        return float(np.nansum(self["seconds"].reshape(len(self.plan.keys), -1)[different]))
+
+    @property
     def with_warnings(self) -> int:
         """Number of points at which an assumption does not hold; notes do not count."""
         return sum(any(not violation.is_note for violation in at_point) for at_point in self.violations.flat)

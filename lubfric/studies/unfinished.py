@@ -88,11 +88,15 @@ def is_all_solved(folder: Path) -> bool:
     return is_complete and all(_has_point(store, *point) for point in points)
 
 
-def count_of_kept(folder: Path, prepared: Prepared, speeds: Sequence[float]) -> int:
-    """Return how many of the ``speeds`` [m/s] have a record in the store ``folder``."""
+def count_of_kept(folder: Path, prepared: Prepared, speeds: Sequence[float], with_fields: Sequence[float] = ()) -> int:
+    """Return how many of the ``speeds`` [m/s] (none: of those that the curve has chosen so far) have a record in the
+    store ``folder``, with fields if they are among those ``with_fields``."""
     store = Store(folder)
     key = key_of(prepared)
-    return sum(_has_point(store, key, speed) for speed in speeds)
+    (chosen, _) = store.get(digest(key), CHOSEN) or ((), True)
+    return sum(
+        _has_point(store, key, speed, KEPT_FIELDS[speed in with_fields :]) for speed in dict.fromkeys(speeds or chosen)
+    )
 
 
 def count_of_kept_ratios(folder: Path, speed: float, keys: Mapping[float, str]) -> int:
@@ -102,8 +106,8 @@ def count_of_kept_ratios(folder: Path, speed: float, keys: Mapping[float, str]) 
     return sum(_has_point(store, key, speed) for key in keys.values())
 
 
-def _has_point(store: Store, key: str, speed: float) -> bool:
-    return any(store.has(point_key(key, speed, fields=fields)) for fields in KEPT_FIELDS)
+def _has_point(store: Store, key: str, speed: float, kept: Sequence[bool | str] = KEPT_FIELDS) -> bool:
+    return any(store.has(point_key(key, speed, fields=fields)) for fields in kept)
 
 
 def unfinished_curve(folder: Path) -> UnfinishedCurve | None:

@@ -120,7 +120,7 @@ def test_several_processes_share_the_points():
 def test_the_work_of_a_point_is_about_what_is_expected_of_it():
     """Both are seconds of a usual core; the estimate is within a factor of 3 in most cases."""
     plan = lubfric.plan_study(SCENE, {"bodies.load": [3.0, 4.0]}, [0.1, 0.3])
-    (text, expected) = studies.explained(plan)
+    (text, expected, _) = studies.explained(plan)
     assert text.startswith(plan.explain().partition("  time ")[0]) and list(expected) == [
         (key, speed) for key in plan.keys for speed in (0.1, 0.3)
     ]

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -203,15 +204,19 @@ def test_an_interrupted_traction_curve_is_drawn_and_serves_a_run_at_other_ratios
     assert not (out / "unfinished").exists()
 
 
-def signalling(sent, after):
-    """`lubfric.friction` that sends its own process a signal after some calls."""
+SLOW = 1000.0  # s that a point says it took, in place of what it took
+
+
+def signalling(sent, after, longer=0.0):
+    """`lubfric.friction` that sends its own process a signal after some calls, and takes so many seconds ``longer``."""
     count = [0]
 
     def solve(*arguments, **options):
         count[0] += 1
         if count[0] == after:
             os.kill(os.getpid(), sent)
-        return lubfric.friction(*arguments, **options)
+        point = lubfric.friction(*arguments, **options)
+        return replace(point, seconds=point.seconds + longer)
 
     return solve
 
@@ -219,13 +224,21 @@ def signalling(sent, after):
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkeypatch, capsys, sent, code):
     out = tmp_path / "out"
-    monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 4))
+    monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 4, SLOW))
     assert main(["run", written(tmp_path), "--out", str(out)]) == code
     said = capsys.readouterr().err.splitlines()
     assert said[-1] == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command continues from there"
     assert not (out / "result.json").exists()
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0  # two points were left
+    record = complete(out)
+    slow = [point["seconds"] for point in record["points"] if point["seconds"] >= SLOW]
+    assert len(slow) == 3 == record["points_read"] and record["seconds"] < SLOW
+    assert record["points_seconds"] == pytest.approx(sum(point["seconds"] for point in record["points"]))
+    stated = f"{record['points_seconds']:.0f} s"
+    assert "solved: 3 of 5" in " ".join(capsys.readouterr().err.split())
+    page = (out / "report.html").read_text()
+    assert stated in page and "3 of 5" in page and "which continued an interrupted run" in page
     same(out, whole)
 
 

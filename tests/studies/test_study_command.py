@@ -33,6 +33,7 @@ from lubfric.output import (
     study_warnings,
 )
 from lubfric.studies import result as study_result
+from lubfric.units import plain_number
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -516,8 +517,12 @@ def test_an_unfinished_study_is_drawn_as_far_as_it_is(tmp_path, drawn, capsys):
     assert study_pictures.solved_so_far(result) == "3 of 4 points are solved"
     assert main(["study", str(tmp_path / "study.toml"), "--out", str(out)]) == 0
     assert main(["plot", str(out)]) == 0
-    assert (out / "study.png").is_file() and "not finished" not in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert (out / "study.png").is_file() and "not finished" not in said
     assert not (out / "so_far").exists()
+    together = float(lubfric.open_study(out)["seconds"].sum())  # also of the points that the first call solved
+    times = f"each as it was solved: {plain_number(together, 's')}. Points that earlier calls solved: 3."
+    assert all(times in " ".join(text.split()) for text in (said, (out / "report.html").read_text(encoding="utf-8")))
 
 
 def test_a_study_without_a_point_is_not_drawn(tmp_path, drawn, capsys):
