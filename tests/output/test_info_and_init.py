@@ -428,7 +428,7 @@ def test_the_speeds_of_a_command_are_those_solved_and_one_of_them_is_the_answer(
         return drawn, answer.partition(" m/s")[0].rpartition(" ")[2], [float(row.partition(",")[0]) for row in rows]
 
     assert run("--speeds", "0.1") == ([0.1], "0.1", [0.1])
-    assert run("--speeds", "0.01,0.1") == ([0.01], "0.01", [0.01, 0.1])
+    assert run("--speeds", "0.01,0.1") == ([0.1], "0.1", [0.01, 0.1])  # the nearest by ratio
     assert run() == ([0.05], "0.05", [0.05])
     assert "requested; added" not in capsys.readouterr().err
     assert run("--speeds", "0.1", "--fields", "0.02") == ([0.02], "0.02", [0.02, 0.1])
