@@ -431,8 +431,8 @@ def test_the_speeds_of_a_command_are_those_solved_and_one_of_them_is_the_answer(
     assert run("--speeds", "0.01,0.1") == ([0.1], "0.1", [0.01, 0.1])  # the nearest by ratio
     assert run() == ([0.05], "0.05", [0.05])
     assert "requested; added" not in capsys.readouterr().err
-    assert run("--speeds", "0.1", "--fields", "0.02") == ([0.02], "0.02", [0.02, 0.1])
-    assert "1 speed requested; added: 0.02 m/s, whose fields are drawn (--fields)" in capsys.readouterr().err
+    assert run("--speeds", "0.1", "--fields", "0.04") == ([0.04], "0.04", [0.04, 0.1])
+    assert "1 speed requested; added: 0.04 m/s, whose fields are drawn (--fields)" in capsys.readouterr().err
 
 
 def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):
