@@ -69,13 +69,21 @@ def has_designs(result: StudyResult) -> bool:
 
 
 def best_lines(result: StudyResult) -> list[str]:
-    """Return in sentences which combinations of design have the lowest f at the operating conditions, of which the
-    report has a table, and which has the lowest mean: of f, or of operating points of the power loss; none where no
-    designs are compared."""
+    """Return in sentences which combination of design has the lowest mean over the operating conditions, of f or, of
+    operating points, of the power loss; and which have the lowest f at these conditions, of which the report has a
+    table; none where no designs are compared."""
     if not has_designs(result):
         return []
-    best_ones = best(result)
     lines = []
+    quantity = "power_loss" if result.paired else "coefficient"
+    mean = best_mean(result, quantity)
+    if mean is not None:
+        name = "power loss" if result.paired else "friction coefficient"
+        lines.append(
+            f"The mean {name} over all operating conditions is lowest with {values_in_words(mean.design)}: "
+            f"{_number(mean, COLUMNS[quantity].unit)}. {_comparison(mean)}"
+        )
+    best_ones = best(result)
     if len(best_ones) == 1:
         (one,) = best_ones
         place = f"At {condition_in_words(one.condition)}, f" if operating_keys(result.plan) else "f"
@@ -85,14 +93,6 @@ def best_lines(result: StudyResult) -> list[str]:
         )
     elif best_ones:
         lines.append(_summary(best_ones))
-    quantity = "power_loss" if result.paired else "coefficient"
-    mean = best_mean(result, quantity)
-    if mean is not None:
-        name = "power loss" if result.paired else "friction coefficient"
-        lines.append(
-            f"The mean {name} over all operating conditions is lowest with {values_in_words(mean.design)}: "
-            f"{_number(mean, COLUMNS[quantity].unit)}. {_comparison(mean)}"
-        )
     return lines
 
 
@@ -138,10 +138,12 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
         }
         alike = f" At all of them the lowest f has {values_in_words(common)}." if common else ""
         text = f"Of {conditions} f is lowest {words}{more}{alike}"
+    least, most = (_number(find(best_ones, key=lambda one: one.value), "-") for find in (min, max))
+    ends = f"The lowest f is from {least} to {most}, by condition."
     clear = sum(not one.rivals for one in best_ones)
     distinct = f"At {clear} of them it is lower than with all other designs by more than the error of the difference"
     unclear = "At none of them can it be distinguished from all other designs"
-    return f"{text} {distinct if clear else unclear}. The table of the report has a row for each condition."
+    return f"{text} {ends} {distinct if clear else unclear}. The table of the report has a row for each condition."
 
 
 def best_table(result: StudyResult) -> str:

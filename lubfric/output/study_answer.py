@@ -42,10 +42,14 @@ LEAST_STATED_SHARE = 1e-3
 
 
 def answer_lines(result: StudyResult) -> list[str]:
-    """Return the answer of a study in sentences: what the inputs do to f, the best design at the operating conditions,
-    of operating points the means over the cycle, and the smallest and the largest f and power loss with intervals and
-    places."""
-    rows = [*_main_effects_line(result), *best_lines(result)]
+    """Return the answer of a study in sentences: the best design, what the inputs do to f, of operating points the
+    means over the cycle, and the smallest and the largest f and power loss with intervals and places. Without designs
+    the means and the extremes are before what the inputs do."""
+    rows = best_lines(result)
+    effects = _main_effects_line(result)
+    if rows:
+        rows += effects
+        effects = []
     if result.paired:
         rows += _mean_lines(result)
     slides = is_by_sliding(result.columns)
@@ -64,7 +68,7 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
-    return [*rows, *_rolling_line(result), *_alpha_line(result), *_budget_line(result)]
+    return [*rows, *effects, *_rolling_line(result), *_alpha_line(result), *_budget_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:

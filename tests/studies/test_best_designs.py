@@ -12,6 +12,7 @@ from small_study import SCENE, violations_at
 import lubfric
 from lubfric.output import best_designs, study_answer, study_pictures, study_report
 from lubfric.studies import StudyResult, design_keys, operating_keys
+from lubfric.units import with_interval
 
 LOADS = [3.0, 5.0, 8.0]
 SQ = [5e-8, 1e-7, 2e-7]
@@ -248,19 +249,26 @@ def test_a_range_that_moves_one_design_alone_is_not_left_out():
     assert len(one.rivals) == 1
 
 
-def test_the_answer_has_what_matters_most_and_then_the_best_design_and_says_where_one_wins_everywhere():
+def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhere():
     f = F.copy()
     f[1, :, 0, :] = 0.01
-    (matters, *lines) = study_answer.answer_lines(made(f, WIDTH))
-    assert matters.startswith("Part of the variance of ln f that each input alone explains")
+    result = made(f, 1e-5 * np.ones(f.shape))
+    mean = result.best_mean()
+    (best, *lines) = study_answer.answer_lines(result)
     winner = "root mean square height Sq 100 nm, "
+    assert best.startswith(f"The mean friction coefficient over all operating conditions is lowest with {winner}")
+    assert with_interval(mean.value, *mean.interval) in best and "lower than with all 5 other combinations" in best
     assert lines[0].startswith(f"One design has the lowest f at all 6 operating conditions: {winner}")
+    assert lines[1].startswith("Part of the variance of ln f that each input alone explains")
     f[2, 1, 0, 0] = 0.005
-    (matters, *lines) = study_answer.answer_lines(made(f, WIDTH))
+    (best, *lines) = study_answer.answer_lines(made(f, WIDTH))
     assert lines[0].startswith(f"Of 6 operating conditions f is lowest with {winner}") and " at 5; with " in lines[0]
     assert "At all of them the lowest f has material 100Cr6." in lines[0]
-    page = study_report.study_page(made(f, WIDTH), {}, [matters, *lines]).decode()
-    assert re.search(r'<p class="answer">Part of the variance of ln f.*Of 6 operating conditions', page, re.DOTALL)
+    (one, *_) = sorted(made(f, WIDTH).best(), key=lambda one: one.value)
+    least = with_interval(0.005, *one.interval)
+    assert f"from {least} to 0.01" in lines[0]
+    page = study_report.study_page(made(f, WIDTH), {}, [best, *lines]).decode()
+    assert re.search(r'<p class="answer">The mean friction.*Of 6 operating conditions.*variance', page, re.DOTALL)
     assert "left out but for the difference" in page and "report.html has all" not in page
 
 
