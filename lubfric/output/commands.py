@@ -408,7 +408,7 @@ class RunFolder:
     last says that the others are complete.
 
     ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone.
-    ``is_needed``: whether runs of the same states still need it. ``continues``: whether an interrupted run is continued.
+    ``is_needed``: whether runs of the same states still need it. ``continues``: whether it continues an interrupted run.
     ``map_checksums``: of the height maps that were read, by path.
     """
 

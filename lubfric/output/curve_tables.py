@@ -15,7 +15,7 @@ from .describe import is_among
 from .films_in_words import LOADS, films_at_limit, note_on_touching
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, Cell, column_heading, number_cells, number_or_dash, table
 from .operating_point import operating_point_of
-from .rolling_part import heading_of_rolling, is_tabled, rolling_part
+from .rolling_part import heading_of_rolling, is_tabled, rolling_part, without_small
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -43,7 +43,8 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
         *of_others,
         ASPERITY_LOAD_RATIO,
     ]
-    rolling = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
+    of_loss = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
+    cells_of_rolling = without_small([*map(number_or_dash, of_loss.tolist())], rolling, curve["power_loss"])
     rows = []
     for index, point in enumerate(curve.points):
         place = f"{shown[swept][index]:.4g}"
@@ -63,7 +64,7 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
             float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
         )
         if has_rolling:
-            numbers.insert(OF_POINT.index("power_loss") + 1, number_or_dash(float(rolling[index])))
+            numbers.insert(OF_POINT.index("power_loss") + 1, cells_of_rolling[index])
         rows.append(number_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
     at_limit = films_at_limit({name: curve[name] for name in LOADS})
     beside = f"<p>{escape(at_limit)}</p>" if at_limit else ""

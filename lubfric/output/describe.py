@@ -71,7 +71,7 @@ from ..time import (
 )
 from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
-from .rolling_part import rolling_part
+from .rolling_part import SMALL_ROLLING_PART, rolling_part
 
 # Part of the largest f by which f may be above the line between two ratios, from which on this is stated before the
 # solve [-]. A choice: the closed form does not know f better.
@@ -112,8 +112,6 @@ SPEED_ROUNDING = 1e-9
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
 # digits. A choice: any number between rounding and a speed does.
 STANDSTILL_PART = 1e-8
-# Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
-SMALL_ROLLING_PART = 0.01
 # Part of the power loss from which the error of the rolling resistance in it is stated. A choice: a smaller part
 # changes the loss by less than 3 % at the largest error.
 LARGE_ROLLING_PART = 0.2

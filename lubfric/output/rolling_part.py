@@ -3,11 +3,15 @@
 import numpy as np
 
 from .._base import FloatArray
+from ..models.shared import percent
 from ..units import printed
 
 # Part of the power loss above which a table of points states the rolling resistance in it. A choice: below it the loss
 # follows from f, load and sliding speed to within a digit.
 TABLED_ROLLING_PART = 0.1
+
+# Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
+SMALL_ROLLING_PART = 0.01
 
 
 def rolling_part(
@@ -24,6 +28,12 @@ def rolling_part(
 def is_tabled(rolling: FloatArray, power_loss: FloatArray) -> bool:
     """Return whether the ``rolling`` part [W] is more than `TABLED_ROLLING_PART` of the ``power_loss`` [W] anywhere."""
     return bool((rolling > TABLED_ROLLING_PART * np.abs(power_loss)).any())
+
+
+def without_small(texts: list[str], rolling: FloatArray, power_loss: FloatArray) -> list[str]:
+    """Return the ``texts`` of cells of the ``rolling`` part, (n,); "< 1 %" where it is less of the ``power_loss``."""
+    are_small = np.abs(rolling) < SMALL_ROLLING_PART * np.abs(power_loss)
+    return [f"< {percent(SMALL_ROLLING_PART)}" if is_small else text for text, is_small in zip(texts, are_small)]
 
 
 def heading_of_rolling(unit: str) -> str:

@@ -253,8 +253,9 @@ def _write(
     }
     if points_read:
         unusual_values.append(
-            f"wall-clock time of all points together, each as it was solved: {plain_number(curve.total_seconds, 's')}; points that the "
-            f"interrupted run had solved: {points_read} of {len(curve.points)}"
+            "wall-clock time of all points together, each as it was solved: "
+            f"{plain_number(curve.total_seconds, 's')}; points that the interrupted run had solved: {points_read} of "
+            f"{len(curve.points)}"
         )
     folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, **of_record)
 

@@ -5,7 +5,7 @@ from html import escape
 
 import numpy as np
 
-from ..models.shared import GatheredTexts, numbers_in_words, peak_hertz_pressure, percent
+from ..models.shared import LEAST_STATED_RISE, GatheredTexts, numbers_in_words, peak_hertz_pressure, percent
 from ..quantities import COLUMNS
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget
 from ..studies import INTERVAL_COLUMNS, StudyResult, columns_of_study, name_of
@@ -21,7 +21,7 @@ from ..units import (
     worded,
 )
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, NUMBER, Cell, number_cells, table
-from .rolling_part import heading_of_rolling, is_tabled, rolling_part
+from .rolling_part import heading_of_rolling, is_tabled, rolling_part, without_small
 from .study_points import error_in_words, parts_of_error, scene_of_each
 
 # Rows of the table of a report, about; study.csv has all.
@@ -116,7 +116,8 @@ def _rolling_column(
     si = COLUMNS["power_loss"].unit
     unit = unit_of_largest(loss.tolist(), si)
     heads.append(heading_of_rolling(unit))
-    return [[_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]]
+    texts = [_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]
+    return [without_small(texts, rolling, loss)]
 
 
 def _number_cell(text: str, *, is_interval: bool) -> Cell:
@@ -171,6 +172,13 @@ def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int
     return plain_number(shown, digits=digits)
 
 
+def _rise_cell(rise: float) -> str:
+    """Return a temperature ``rise`` [K]; "< 0.1" for a small one."""
+    if 0 < rise < LEAST_STATED_RISE:
+        return f"< {LEAST_STATED_RISE:g}"
+    return _cell(rise, np.nan, np.nan, "K", "K", RISE_DIGITS)
+
+
 def _constant(result: StudyResult, count: int) -> list[str]:
     """Return what is varied by name alone: it has one value at all of ``count`` points."""
     return [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
@@ -208,7 +216,7 @@ def folded_details(result: StudyResult, rows: int) -> str:
     body = []
     for i, row in enumerate(picked):
         cells = [f"{row + 1}", *(texts[i] for _, texts in derived), worded(peak_hertz_pressure(scenes[row]), "Pa")]
-        cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
+        cells += [_rise_cell(float(rise[i])) for rise in rises]
         f = float(columns["coefficient"][row])
         cells += [error_in_words(part, i, f) for part in parts.values()]
         body.append(number_cells(cells))

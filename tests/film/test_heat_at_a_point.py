@@ -64,6 +64,7 @@ def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
     couette = bodies.width * np.trapezoid(wet * heated.stress, film.x)
     assert result.couette_force == pytest.approx(couette, rel=3e-3)
     assert result.flash_temperature_rise == pytest.approx(heated.flash, rel=1e-6)
+    assert f"surfaces up to {heated.flash:.2g} K and film " in result.decision.heat_in_words
     assert result.coefficient < at(model, speed, ratio, numerics={"heat": "off"}).coefficient
 
 
@@ -81,6 +82,8 @@ def test_what_is_omitted_is_part_of_the_numerical_error(model):
     on = at(model, 0.3, 0.01, numerics={"heat": "on"})
     omitted = "heat within the contact: neglected"
     assert omitted in auto.decision.heat_in_words and omitted not in on.decision.heat_in_words
+    assert max(on.flash_temperature_rise, on.film_temperature_rise) < 0.1  # K, of which no digit is stated
+    assert "(surfaces less than 0.1 K and film less than 0.1 K warmer)" in on.decision.heat_in_words
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):
         assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name

@@ -36,6 +36,7 @@ from ..shared import (
     is_near_zero,
     limit_bounds,
     limit_in_words,
+    part_in_words,
     peak_hertz_pressure,
     percent_beside,
     sides_of_parts,
@@ -490,12 +491,13 @@ def _words_of_levels(levels: Levels) -> str:
 def _division(scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]) -> str:
     """Return the load that rubs with f_b, by its parts, as text: those of the answer, and the cells that touch on the
     strips."""
-    thin, saturated = (100 * numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
-    touching = 100 * mean(result.split.touching / result.load for result in results)
-    text = f"load on gaps below the boundary film {thin:.3g} % (on touching cells {touching:.3g} %)"
+    thin, saturated = (numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
+    touching = mean(result.split.touching / result.load for result in results)
+    on_touching = part_in_words(touching, 3)
+    text = f"load on gaps below the boundary film {part_in_words(thin, 3)} (on touching cells {on_touching})"
     if saturated > 0:
         of = "asperity" if scene.lubricant.has_unlimited_stress else "film"
-        text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"
+        text += f", on film at its limiting stress {part_in_words(saturated, 3)}, which is part of the {of} load"
     return text
 
 

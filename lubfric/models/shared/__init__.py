@@ -155,4 +155,15 @@ from .violation import (
     sentence,
     violations_of,
 )
-from .wording import is_near_zero, percent, percent_beside, percent_of_sides, sides_in_f, standard_error_in_words
+from .wording import (
+    LEAST_STATED_PART,
+    LEAST_STATED_RISE,
+    is_near_zero,
+    part_in_words,
+    percent,
+    percent_beside,
+    percent_of_sides,
+    rise_in_words,
+    sides_in_f,
+    standard_error_in_words,
+)

@@ -11,6 +11,13 @@ MOST_DIGITS = 6
 # Relative error that nobody can see. A convention.
 INVISIBLE = 1e-5
 
+# Part of f, of a film or of a load below which it is stated as less than that [-]. A choice: errors of f are larger.
+LEAST_STATED_PART = 1e-4
+
+# Temperature rise below which it is stated as less than that [K]. A choice: in 0.1 K the viscosity changes by less than
+# 1 %.
+LEAST_STATED_RISE = 0.1
+
 # Error of f over f above which it is stated in f itself [-], where f is near 0: there a ratio to it says nothing. A
 # convention.
 MOST_RELATIVE = 1.0
@@ -28,6 +35,18 @@ def percent(value: float, digits: int = 2) -> str:
     if value >= 0.995:
         return f"{100 * value:.{digits - 2}f} %"
     return "< 0.001 %" if 0 < value < INVISIBLE else f"{100 * value:.{digits}g} %"
+
+
+def part_in_words(part: float, digits: int = 2) -> str:
+    """Return a ``part`` in percent with so many ``digits``; "less than 0.01 %" below `LEAST_STATED_PART`."""
+    if 0 < part < LEAST_STATED_PART:
+        return f"less than {100 * LEAST_STATED_PART:g} %"
+    return f"{100 * part:.{digits}g} %"
+
+
+def rise_in_words(rise: float) -> str:
+    """Return the largest temperature ``rise`` [K] to two digits; "less than 0.1 K" below `LEAST_STATED_RISE`."""
+    return f"less than {LEAST_STATED_RISE:g} K" if rise < LEAST_STATED_RISE else f"up to {rise:.2g} K"
 
 
 def standard_error_in_words(tolerance: float) -> str:
