@@ -17,7 +17,14 @@ from .build_result import beside_larger_part
 from .expected_of_sample import expected_of_sample
 from .friction import friction, most_work_of_estimate
 from .full_load import full_load_numbers
-from .inputs_to_quote import inputs_to_quote, span_to_quote, varied_to_quote
+from .inputs_to_quote import (
+    dry_contact_to_quote,
+    inputs_to_quote,
+    lubricated_contact_to_quote,
+    roughness_to_quote,
+    span_to_quote,
+    varied_to_quote,
+)
 from .methods import MethodUse, methods_of
 from .power import power_of_forces, rolling_resistance_error
 from .ranges import with_input_ranges

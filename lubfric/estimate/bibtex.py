@@ -14,10 +14,14 @@ ENTRY_FIELDS = (
     "publisher",
     "school",
     "institution",
+    "howpublished",
     "version",
     "year",
     "doi",
 )
+
+# Kind of the entry of a type of source, where it has another name: the styles of BibTeX itself know no software.
+ENTRY_KINDS = {"software": "misc"}
 
 # Types of source with one author, which is an organisation: BibTeX must not take its name for that of a person.
 BY_ORGANISATION = ("software", "techreport")
@@ -48,11 +52,13 @@ def bibtex(sources: list[dict[str, Any]]) -> str:
     """Return one entry for each of the ``sources``; keys are made of first author and year, and differ."""
     entries: dict[str, str] = {}
     for source in sources:
+        if source["type"] == "software":
+            source = source | {"howpublished": f"computer program, version {source['version']}"}
         fields = {name: _field(source, name) for name in ENTRY_FIELDS if name in source}
         name = _key(source)
         key = next(k for k in (name, *(f"{name}{letter}" for letter in "abcdefgh")) if k not in entries)
         rows = ",\n".join(f"  {field} = {{{value}}}" for field, value in fields.items())
-        entries[key] = f"@{source['type']}{{{key},\n{rows}\n}}"
+        entries[key] = f"@{ENTRY_KINDS.get(source['type'], source['type'])}{{{key},\n{rows}\n}}"
     return "\n".join(entries.values())
 
 

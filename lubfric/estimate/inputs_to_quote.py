@@ -21,44 +21,52 @@ def inputs_to_quote(
     unit and its range as text, as far as it has them; what changes in time as its range over the run. ``maps``: of its
     rough bodies, before they are extended (`lubfric.samples.Sample.maps_before_extension`); ``has_given_map``: whether
     maps were given in place of those of the scene; ``has_sampling_error``: whether that of f is known at some point."""
-    bodies = scene.bodies
-    peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
-    histories = scene.transient
-    texts = ["height map given as an array"] if has_given_map else [*_roughness(scene, maps)]
+    texts = [*roughness_to_quote(scene, maps, has_given_map=has_given_map)]
     if scene.numerics.sampling == "patch":
         texts.append("one patch of the surface in place of strips")
         texts += [] if has_sampling_error else ["sampling error of f not known"]
-    texts.append(f"{_in_time(scene, 'load', 'load', bodies.load)} on a length of {worded(bodies.width, 'm')}")
-    texts.append(_in_time(scene, "radius", "reduced radius", bodies.radius))
+    return (*texts, *dry_contact_to_quote(scene), *lubricated_contact_to_quote(scene))
+
+
+def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
+    """Yield the load, the radius, the modulus and the hardness of ``scene``, as `inputs_to_quote`."""
+    bodies = scene.bodies
+    histories = scene.transient
+    yield f"{_in_time(scene, 'load', 'load', bodies.load)} on a length of {worded(bodies.width, 'm')}"
+    yield _in_time(scene, "radius", "reduced radius", bodies.radius)
     if histories is None or (histories.load is None and histories.radius is None):
-        texts.append(f"peak Hertz pressure {worded(peak, 'Pa')}")
-    texts.append(f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}")
+        peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
+        yield f"peak Hertz pressure {worded(peak, 'Pa')}"
+    yield f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}"
     if bodies.hardness is not None:
-        texts.append(
-            f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
-        )
-    texts += _lubricant(scene)
-    texts.append(
+        yield f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
+
+
+def lubricated_contact_to_quote(scene: Scene) -> Iterator[str]:
+    """Yield the lubricant, the boundary friction and the sliding of ``scene``, as `inputs_to_quote`."""
+    bodies = scene.bodies
+    histories = scene.transient
+    yield from _lubricant(scene)
+    yield (
         f"boundary friction coefficient {worded(bodies.boundary_friction_coefficient, '-')}"
         f"{_range(scene, 'bodies.boundary_friction_coefficient')}"
     )
     if bodies.boundary_film is not None:
-        texts.append(f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}")
+        yield f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}"
     if histories is not None:
         turns = (
             ""
             if histories.rotational_speed is None
             else f" at {60 * histories.rotational_speed:.4g} revolutions per minute"
         )
-        texts.append(f"run in time over {worded(histories.duration, 's')}{turns}")
-        texts.append(_in_time(scene, "speed", "entrainment speed", scene.motion.entrainment_speed))
+        yield f"run in time over {worded(histories.duration, 's')}{turns}"
+        yield _in_time(scene, "speed", "entrainment speed", scene.motion.entrainment_speed)
     if histories is not None and histories.sliding is not None:
-        texts.append(_in_time(scene, "sliding", "sliding speed", 0.0))
+        yield _in_time(scene, "sliding", "sliding speed", 0.0)
     else:
-        texts.append(
+        yield (
             f"slide-roll ratio {worded(scene.motion.slide_roll_ratio, '-')}{_range(scene, 'motion.slide_roll_ratio')}"
         )
-    return tuple(texts)
 
 
 def span_to_quote(name: str, values: Sequence[float], unit: str) -> str:
@@ -102,7 +110,11 @@ def _range(scene: Scene, key: str) -> str:
     return ""
 
 
-def _roughness(scene: Scene, maps: Sequence[Surface]) -> Iterator[str]:
+def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False) -> Iterator[str]:
+    """Yield the roughness of ``scene``; arguments as of `inputs_to_quote`."""
+    if has_given_map:
+        yield "height map given as an array"
+        return
     bodies = rough_bodies(scene)
     measured = dict(zip((name for _, name in bodies), maps)) if len(maps) == len(bodies) else {}
     for rough, section in bodies:

@@ -24,10 +24,11 @@ def methods_paragraph(
     decisions: Sequence[Decision],
     uncertainties: Sequence[Uncertainty],
     inputs: Sequence[str],
+    what: str = "Friction",
 ) -> str:
-    """Return the paragraph: program and ``version``, by which models and on which cells the points are (``decisions``),
-    their ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain by their
-    ``uncertainties``."""
+    """Return the paragraph: ``what`` was computed, by the program of the ``version``; by which models and on which
+    cells the points are (``decisions``), their ``inputs``, the ``sources`` of the methods (of papers.toml), and what
+    the intervals of f contain by their ``uncertainties``."""
     by_model = Counter(decision.model for decision in decisions)
     total = sum(by_model.values())
     shares = [
@@ -39,7 +40,7 @@ def methods_paragraph(
     for source in sources:
         by_purpose.setdefault(source["purpose"], []).append(_reference(source))
     methods = "; ".join(f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items())
-    sentences = [f"Friction was computed with lubfric {version}{by}."]
+    sentences = [f"{what} was computed with lubfric {version}{by}."]
     facts = [*inputs, *_cells(decisions)]
     sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
     sentences += [f"The methods are: {methods}."] if methods else []

@@ -193,16 +193,17 @@ def cited(
     decisions: Sequence[Decision] = (),
     errors: Sequence[Uncertainty] = (),
     inputs: Sequence[str] = (),
+    what: str = "Friction",
 ) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
     "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and
-    the ``inputs`` that they share."""
+    the ``inputs`` that they share. ``what``: was computed, as text."""
     validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
     if format == "methods":
-        return methods_paragraph(__version__, sources, decisions, errors, inputs)
+        return methods_paragraph(__version__, sources, decisions, errors, inputs, what)
     if not any(source["type"] == "software" for source in sources):
         program = papers["deterministic model"][0]  # a chapter of lubfric
         sources.append(program | {"chapter": "", "purpose": PROGRAM})

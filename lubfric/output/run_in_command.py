@@ -23,6 +23,7 @@ from .command_line import scene_of
 from .commands import CommandStart, RunFolder, check_outputs, keeping, paced, references, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
 from .markup import number_cells, picture, row_with_key, table
+from .methods import methods_to_quote
 from .page import framed
 from .progress import ProgressLine
 from .run_files import BIBTEX_FILE
@@ -210,6 +211,7 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
             pictures="".join(pictures),
             table=_table(result),
             inputs="".join(values),
+            methods=methods_to_quote((), result),
         ),
     )
 

@@ -17,13 +17,14 @@ from .._base import FrozenArrays, Shown, figures, limited_work, table_bytes, val
 from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
-from ..estimate import cited
+from ..estimate import cited, dry_contact_to_quote, lubricated_contact_to_quote, roughness_to_quote
 from ..models import AUTO, MODELS, model_named
 from ..models.load_sharing import flattening
+from ..quantities import counted
 from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface, rms_slope
-from ..units import converted, printed, unit_for
+from ..units import converted, plain_number, printed, unit_for, worded
 from .wear import NM, Wear, estimated_wear, worn_in
 
 if TYPE_CHECKING:
@@ -80,6 +81,7 @@ class RunIn(FrozenArrays, Shown):
         would in further passes
     ends : the map after at the lowest and the highest hardness, where that is known to a range only; () else
     wear : what wear changed over the distance, a `Wear`; None without wear
+    inputs : what has run in, and how, in texts with units
     """
 
     before: Surface
@@ -90,6 +92,7 @@ class RunIn(FrozenArrays, Shown):
     shaken_down: bool
     ends: tuple[Surface, ...] = ()
     wear: Wear | None = None
+    inputs: tuple[str, ...] = ()
 
     @property
     def dents(self) -> np.ndarray:
@@ -98,8 +101,10 @@ class RunIn(FrozenArrays, Shown):
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the contact that dents the surface and, with wear, of the law of wear and of the
-        asperity pressure: one a line, or with ``format`` "bibtex" as BibTeX entries."""
-        return cited(("half-space contact", *(("wear", "load sharing") if self.wear is not None else ())), format)
+        asperity pressure: one a line, or with ``format`` "bibtex" as BibTeX entries, or "methods" as a paragraph with
+        the ``inputs``."""
+        methods = ("half-space contact", *(("wear", "load sharing") if self.wear is not None else ()))
+        return cited(methods, format, inputs=self.inputs, what="Running-in of the surface")
 
     def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m]
@@ -244,13 +249,14 @@ def _run_in(scene: Scene, surface: Surface | None, options: _Options) -> RunIn:
     before = _whole(scene, surface)
     limit = scene.numerics.max_work or math.inf
     others = [pair for name, *pair in scene.at_ends() if name == "bodies.hardness"]
+    centres = _way(scene, before, options.step)
     done = _Passes(heights=before.heights)
     wear = None
     ends: tuple[Surface, ...] = ()
     ended = ""
     try:
         with limited_work(limit):
-            for done in _passes(scene, before, _way(scene, before, options.step), passes, tolerance):
+            for done in _passes(scene, before, centres, passes, tolerance):
                 pass
             dented = _run_in_map(scene, before, done)
             after = dented
@@ -271,10 +277,34 @@ def _run_in(scene: Scene, surface: Surface | None, options: _Options) -> RunIn:
         shaken_down=done.shaken_down,
         ends=ends,
         wear=wear,
+        inputs=(
+            *roughness_to_quote(scene, has_given_map=surface is not None),
+            *dry_contact_to_quote(replace(scene, transient=None)),
+            *_passes_in_words(before, centres, len(done.deepest), tolerance),
+            *(() if wear is None else _wear_in_words(replace(scene, transient=None), wear, wear_of)),
+        ),
     )
     if ended:
         raise WorkLimitError(limit, result=result, reached=f"Until then {ended}; .result of this error contains them")
     return result
+
+
+def _passes_in_words(before: Surface, centres: np.ndarray, passes: int, tolerance: float) -> Iterator[str]:
+    """Yield how the contact passed over the map ``before``: so many ``passes`` above the columns ``centres``."""
+    step = float(np.abs(np.diff(centres)).max(initial=0)) * before.spacing[0]
+    yield f"{counted(passes, 'passes')} in steps of {worded(step, 'm')} at most"
+    yield f"end of the passes where no cell sinks by more than {worded(tolerance, 'm')}"
+
+
+def _wear_in_words(scene: Scene, wear: Wear, wear_of: dict[str, Any]) -> Iterator[str]:
+    """Yield the inputs of ``wear``; ``wear_of``: as of `_checked_wear`."""
+    yield from lubricated_contact_to_quote(scene)
+    yield f"entrainment speed {worded(scene.motion.entrainment_speed, 'm/s')}"
+    yield f"sliding distance {worded(wear_of['distance'], 'm')}"
+    yield f"wear coefficient {plain_number(wear_of['coefficient'])}"
+    of_rough, of_other = (worded(hardness, "Pa") for hardness in wear_of["hardness"])
+    yield f"hardness {of_rough} of the rough body and {of_other} of the other one in the law of wear"
+    yield f"{counted(wear.steps, 'steps')} of wear"
 
 
 @dataclass(frozen=True, kw_only=True)

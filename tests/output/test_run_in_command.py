@@ -1,5 +1,6 @@
 """``lubfric run-in``: the map it writes is that of `lubfric.run_in`, and the scene it writes takes this map."""
 
+import html
 import json
 from dataclasses import replace
 
@@ -46,6 +47,21 @@ def test_the_files_hold_what_the_function_returns(folder):
     assert json.loads((folder / "out" / "run_in.json").read_text())["passes"]["shaken_down"] is True
     sources = (folder / "out" / "references.bib").read_text(encoding="utf-8")
     assert sources == f"{result.cite('bibtex')}\n" and "10.1063/1.1721448" in sources  # of Archard's law
+    quoted = result.cite("methods")
+    for words in (
+        "Running-in of the surface was computed with lubfric",
+        "Sq 100 nm with",
+        "plastic limit of the contact pressure 2 GPa",
+        f"{result.deepest.size} passes in steps of ",
+        "entrainment speed 0.01 m/s",
+        "sliding distance 1 mm",
+        "wear coefficient 1·10⁻⁶",
+        "hardness 2 GPa of the rough body and 2 GPa of the other one",
+        f"{result.wear.steps} steps of wear",
+    ):
+        assert words in quoted, words
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    assert html.escape(quoted) in page
     assert "Archard" not in replace(result, wear=None).cite() and "Polonsky" in replace(result, wear=None).cite()
 
 
