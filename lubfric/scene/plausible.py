@@ -280,21 +280,25 @@ def _is_far(value: float, usual: Sequence[float], *, above: float) -> bool:
 def other_convention(key: str, values: Iterable[Any]) -> str:
     """Return the question whether plain ``values`` of the ``key`` of sliding, as the user wrote them, are in the other
     of its two conventions, percent or ratio; "" if they are not doubtful."""
-    sizes = [abs(v) for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+    numbers = [v for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+    sizes = [abs(v) for v in numbers]
     if not sizes or not math.isfinite(max(sizes)):
         return ""
     if key == SLIP_KEY and max(sizes) < SMALL_PERCENT:
-        most = max(sizes)
+        most = max(numbers, key=abs)
         return (
             f"did you mean slide_roll_ratio = {most:g}, which is {100 * most:g} %? "
-            f'If not, write slip_percent = "{most:g} %"'
+            f'Write slip_percent = "{most:g} %" where percent are meant.'
         )
     follows_from_speeds = any(float(f"{size:.{DIGITS_OF_A_RATIO}g}") != size for size in sizes)
     if follows_from_speeds:
         return ""
     if key == SLIDE_ROLL_RATIO_KEY and min(sizes) >= LARGE_RATIO and max(sizes) < MOST_RATIO:
-        least = min(sizes)
-        return f'did you mean slip_percent = {least:g}? If not, write slide_roll_ratio = "{100 * least:g} %"'
+        least = min(numbers, key=abs)
+        return (
+            f"did you mean slip_percent = {least:g}? "
+            f'Write slide_roll_ratio = "{100 * least:g} %" where the ratio is meant.'
+        )
     return ""
 
 

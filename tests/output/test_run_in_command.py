@@ -57,7 +57,7 @@ def test_the_files_hold_what_the_function_returns(folder):
         "sliding distance 1 mm",
         "wear coefficient 1·10⁻⁶",
         "hardness 2 GPa of the rough body and 2 GPa of the other one",
-        f"{result.wear.steps} steps of wear",
+        f"; {result.wear.steps} step",
     ):
         assert words in quoted, words
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")

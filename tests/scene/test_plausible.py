@@ -2,6 +2,7 @@
 one."""
 
 import pickle
+import tomllib
 from dataclasses import replace
 
 import pytest
@@ -107,6 +108,15 @@ def test_the_likely_cause_begins_a_message():
         "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. If not: "
         "bodies.load"
     )
+
+
+def test_a_doubtful_ratio_keeps_its_sign_in_a_message_with_one_alternative():
+    given = lubfric.load_scene("paper").to_toml().replace("slide_roll_ratio = 2.0", "slide_roll_ratio = -1.5")
+    lines = [line for line in given.splitlines() if not line.startswith(("shape", "spacing"))]
+    with pytest.raises(lubfric.InputError, match="contact.shape") as caught:
+        lubfric.friction(lubfric.load_scene(tomllib.loads("\n".join(lines))))
+    assert "slip_percent = -1.5?" in str(caught.value) and '"-150 %" where the ratio is meant.' in str(caught.value)
+    assert str(caught.value).count("If not") == 1
 
 
 def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
