@@ -8,7 +8,7 @@ import numpy as np
 
 from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, percent, sentence
 from ..quantities import counted
-from ..scene import Scene
+from ..scene import Numerics, Scene
 from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_study
 from ..time import TransientResult, counts_in_average
 from .missed_tolerances import MissedTolerance, missed_tolerances
@@ -44,13 +44,20 @@ class StatusOfPoints:
 
     @property
     def exceeded(self) -> list[MissedTolerance]:
-        """The tolerances that points miss."""
+        """The tolerances that points miss, but for the `usual_model_errors`."""
+        counted_errors = np.where(np.isnan(self.usual_model_errors), self.columns["model_error"], np.nan)
         return [
             replace(each, notes=self._noted_model_errors(each.points))
             if each.assumption == Assumption.MODEL_FORM_ERROR
             else each
-            for each in missed_tolerances(self.columns, self.scenes)
+            for each in missed_tolerances({**self.columns, "model_error": counted_errors}, self.scenes)
         ]
+
+    @property
+    def usual_model_errors(self) -> np.ndarray:
+        """The relative model-form errors of f that are above the default target and usual for the quick model, which
+        the scene names, (n,); NaN at other points."""
+        return np.array([_usual_model_error(*pair) for pair in zip(self.scenes, self.violations)])
 
     def _noted_model_errors(self, points: Iterable[int]) -> int:
         """Return at how many ``points`` the model-form error is a note."""
@@ -81,7 +88,31 @@ class StatusOfPoints:
         solved = np.isfinite(self.columns["coefficient"])
         unknown = int(np.isnan(self.columns["interval_low"][solved]).sum())
         orders = orders_of_magnitude(self.columns["numerical_error"].tolist())
-        return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place)))
+        usual = usual_errors_in_words(self.usual_model_errors)
+        return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place), *usual))
+
+
+def _usual_model_error(scene: Scene, violations: Iterable[Violation]) -> float:
+    """Return one of `StatusOfPoints.usual_model_errors`, of a point of ``scene`` with these ``violations``."""
+    is_by_default = scene.numerics.model_tolerance == Numerics().model_tolerance
+    if scene.numerics.model != "quick" or not is_by_default:
+        return np.nan
+    of_model = (each for each in violations if each.assumption == Assumption.MODEL_FORM_ERROR)
+    # near 0 its unit is that of f, and no relative error counts
+    return next((each.effect for each in of_model if each.is_note and each.unit == "%"), np.nan)
+
+
+def usual_errors_in_words(errors: np.ndarray) -> list[str]:
+    """Return the `StatusOfPoints.usual_model_errors` in a sentence; none where all are NaN."""
+    usual = errors[np.isfinite(errors)]
+    if not usual.size:
+        return []
+    where = "The" if usual.size == errors.size else f"At {usual.size} of {errors.size} points the"
+    span = " to ".join(dict.fromkeys(map(percent, (float(usual.min()), float(usual.max())))))
+    return [
+        f"{where} model-form error of f is {span}, as is usual for the quick model; the interval of f, where it is known, "
+        "includes it."
+    ]
 
 
 def status_of_curve(scene: Scene, curve: CurveResult) -> StatusOfPoints:

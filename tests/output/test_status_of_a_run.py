@@ -8,7 +8,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.models.shared import Assumption, Violation
-from lubfric.output.status import missed_by_run
+from lubfric.output.status import StatusOfPoints, missed_by_run
 from lubfric.scene import Harmonic, Transient
 
 SPEED = Harmonic(mean=0.1, amplitude=0.02, frequency=1000.0)
@@ -20,6 +20,31 @@ RUN = paper_scene(
 @pytest.fixture(scope="module")
 def run():
     return lubfric.transient(RUN)
+
+
+@pytest.mark.parametrize(
+    "numerics, is_missed", [({}, False), ({"model_tolerance": 0.06}, True), ({"model": "paper"}, True)]
+)
+def test_an_error_that_is_usual_for_the_quick_model_misses_no_default_tolerance(numerics, is_missed):
+    """It is stated once, for all points; a tolerance of the user is named at each, as the error of another model is."""
+    scene = RUN.with_(numerics={"model": "quick"} | numerics)
+    note = replace(above(Assumption.MODEL_FORM_ERROR, 9.0, is_note=True), effect=0.09)
+    columns = {"coefficient": [0.05, 0.06], "model_error": [0.12, 0.09], "limit_error": [0.0794, 0.0]}
+    columns |= {"numerical_error": [0.0, 0.0], "interval_low": [0.04, 0.05]}
+    status = StatusOfPoints(
+        columns={name: np.array(values) for name, values in columns.items()},
+        scenes=[scene] * 2,
+        violations=[(note,), (replace(note, effect=0.0901),)],
+    )
+    text = status.in_words("speeds", str)
+    assert ("numerics.model_tolerance" in text) == is_missed == (status.kind(failed=False) == "inexact")
+    usual = "The model-form error of f is 9 %, as is usual for the quick model"
+    assert (usual in text) == (not is_missed)
+    mixed = replace(status, violations=[(note,), (replace(note, is_note=False),)])
+    if not is_missed:
+        text = mixed.in_words("speeds", str)
+        assert "At 1 of 2 points the model-form error of f is 9 %, as is usual" in text
+        assert "the model-form error of f is 9 %, above 5 % (numerics.model_tolerance)" in text
 
 
 def above(assumption, value, *, is_note=False):
