@@ -75,8 +75,9 @@ UPSTREAM = 4.0
 # follows from Reynolds' equation (Swift-Stieber).
 REYNOLDS_RUPTURE = 0.475
 
-# Friction of asperities over f_b between which the correlation length of the roughness counts [-]. A choice: the ends
-# of mixed lubrication, where f is that of the film or f_b whatever the length is.
+# Friction of asperities over f_b between which the correlation length of the roughness counts [-]; of moving roughness
+# in a thin film the upper end alone: it bends the film without touching. A choice: the ends of mixed lubrication, where
+# f is that of the film or f_b whatever the length is.
 MIXED = (0.02, 0.98)
 
 # Part of f by asperities below which the film makes it. A choice: it selects a sentence.
@@ -477,7 +478,11 @@ def _of_film(
         )
         (least, most) = MIXED
         of_asperities = (friction_parts or before)[0]
-        if has_generated_roughness(scene) and least * of_rubbing < of_asperities < most * of_rubbing:
+        is_thin = line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq
+        is_mixed = least * of_rubbing < of_asperities < most * of_rubbing
+        if includes_motion and has_moving_roughness(scene) and is_thin:
+            is_mixed = of_asperities < most * of_rubbing or not of_rubbing  # the film follows the roughness there
+        if has_generated_roughness(scene) and is_mixed:
             effects.append(
                 UnmodelledEffect(
                     what="half or twice the correlation length of the roughness, which no drawing states",
@@ -489,7 +494,7 @@ def _of_film(
                     ),
                 )
             )
-        if has_moving_roughness(scene) and not includes_motion and line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq:
+        if has_moving_roughness(scene) and not includes_motion and is_thin:
             effects.append(
                 UnmodelledEffect(
                     what="motion of the roughness through the contact",
