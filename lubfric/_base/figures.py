@@ -298,13 +298,16 @@ def fit_labels(figure: Figure, of: Sequence[Axes] | None = None) -> None:
     for _ in range(FIT_ROUNDS):
         figure.draw_without_rendering()
         whole = figure.bbox
+        is_changed = False
         for axes in figure.axes if of is None else of:
             box = axes.get_window_extent()
             is_lone = not any(_are_side_by_side(axes, other) for other in figure.axes if other is not axes)
             middle = 0.5 * (box.x0 + box.x1)
             room = 2 * min(middle - whole.x0, whole.x1 - middle) if is_lone else box.width
-            _break(axes.xaxis.label, axes.xaxis.label.get_window_extent().width / room)
-            _break(axes.yaxis.label, axes.yaxis.label.get_window_extent().height / box.height)
+            is_changed |= _break(axes.xaxis.label, axes.xaxis.label.get_window_extent().width / room)
+            is_changed |= _break(axes.yaxis.label, axes.yaxis.label.get_window_extent().height / box.height)
+        if not is_changed:
+            return
 
 
 def heighten(figure: Figure, least: float) -> None:
@@ -341,16 +344,19 @@ def _are_side_by_side(axes: Axes, other: Axes) -> bool:
     return one is not None and two is not None and one.rowspan == two.rowspan and one.colspan != two.colspan
 
 
-def _break(label: Text, excess: float) -> None:
-    """Break a ``label`` that is longer than its room, by the factor ``excess``, into lines."""
-    text = label.get_text().replace("\n", " ")
+def _break(label: Text, excess: float) -> bool:
+    """Break a ``label`` that is longer than its room, by the factor ``excess``, into lines, and return whether that
+    changes it."""
+    before = label.get_text()
     if excess > 1:
-        longest = max(map(len, label.get_text().splitlines()))
+        text = before.replace("\n", " ")
+        longest = max(map(len, before.splitlines()))
         width = max(int(longest / excess), 1)
         count = len(_lines(text, width))
         while width > 1 and len(_lines(text, width - 1)) == count:  # lines of about equal lengths
             width -= 1
         label.set_text("\n".join(_lines(text, width)))
+    return label.get_text() != before
 
 
 def _lines(text: str, width: int) -> list[str]:
