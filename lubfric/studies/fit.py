@@ -205,7 +205,9 @@ def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: in
 def _usual_curves(fine: FitCurves) -> int:
     """Return about how many curves a trust region solves, none for its steps where f_b alone changes; and those towards
     the ends of the intervals, of which half are wide."""
-    return USUAL_CURVES + (2 * len(fine.parameters) if fine.changed else 0) + USUAL_CONFIRMED * fine.changed // 2
+    if not fine.changed:
+        return USUAL_CURVES
+    return USUAL_CURVES + 2 * len(fine.parameters) + USUAL_CONFIRMED * len(fine.parameters) // 2
 
 
 def _curves(
@@ -339,7 +341,7 @@ def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResul
         loose: set[int] = set()
         if result.describes_data:  # without it no interval is valid
             loose.update(loose_parameters(result.unit_covariance, result.student))
-        loose -= {*followed, fine.linear_place}
+        loose -= followed if fine.changed else {*followed, fine.linear_place}  # f is linear in f_b alone
         fine.expected = fine.count + USUAL_FOLLOWED * len(followed - {fine.linear_place}) + USUAL_CONFIRMED * len(loose)
         ends = partial(confirmed_ends, covariance=result.unit_covariance)
         for place in (*sorted(followed), *sorted(loose)):

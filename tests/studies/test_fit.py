@@ -145,6 +145,9 @@ def test_the_true_values_are_in_the_region(fitted):
     assert (
         in_joint_region(fitted, TRUTH) and fitted.report.converged and not fitted.undetermined and not fitted.at_bounds
     )
+    # an interval wider than the steps of the differences is that of curves, also of f_b
+    is_wide = fitted.student * np.sqrt(np.diag(fitted.unit_covariance)) > 0.04
+    assert is_wide.any() and set(fitted.profiles) == set(np.array([*BOUNDS])[is_wide])
     for key, (low, high) in fitted.intervals.items():
         assert low < TRUTH[key] < high and high / low < 1.5
     assert not in_joint_region(fitted, {**TRUTH, "lubricant.viscosity": 0.4})

@@ -74,16 +74,16 @@ class Saturating:
         noise = 1e-3 * np.abs(w) - 1e-3 * np.abs(w).mean()
         return unit[0] - 0.3 + (self.s(unit[1]) - self.s(0.4)) * (w + 1.0) + noise
 
-    def interval(self, limit):
-        """The interval of b, and the number of curves that it took, where s may move by ``limit``."""
+    def interval(self, limit, place=1):
+        """The interval of b (or a), and the number of curves that it took, where s may move by ``limit``."""
         variance = (limit / STUDENT) ** 2
         moves = np.eye(2) * 1e-6
         columns = [(self.residuals(self.FIT + move) - self.residuals(self.FIT)) / 1e-6 for move in moves]
         jacobian = np.stack(columns, axis=1)
         covariance = variance * np.linalg.inv(jacobian.T @ jacobian)
-        assert 1 in loose_parameters(covariance, STUDENT) and not flat_parameters(jacobian, variance, STUDENT)
+        assert place in loose_parameters(covariance, STUDENT) and not flat_parameters(jacobian, variance, STUDENT)
         self.count = 0
-        profile = confirmed_ends(self, self.FIT, jacobian, covariance, place=1, variance=variance, student=STUDENT)
+        profile = confirmed_ends(self, self.FIT, jacobian, covariance, place=place, variance=variance, student=STUDENT)
         assert profile.better is None and not profile.is_flat
         return (profile.low, profile.high), self.count
 
@@ -101,6 +101,13 @@ def test_the_ends_of_a_saturating_parameter_are_those_of_its_profile(rate, limit
     ends, count = curves.interval(limit)
     assert 0.0 < exact[0] and exact[1] < 1.0
     assert ends == pytest.approx(exact, abs=0.02) and count <= 8
+
+
+def test_a_parameter_in_which_f_is_linear_has_the_ends_of_its_profile_beside_one_that_saturates():
+    """12 (a - 0.3 + s)² + s² is least at s = -12 (a - 0.3)/13, where it is 12/13 (a - 0.3)²; b moves to there."""
+    (ends, count) = Saturating(2.0).interval(0.1, place=0)
+    reach = 0.1 * np.sqrt(13 / 12)
+    assert ends == pytest.approx((0.3 - reach, 0.3 + reach), abs=5e-3) and count <= 8
 
 
 def test_a_parameter_that_saturates_within_its_limit_has_no_upper_end():
