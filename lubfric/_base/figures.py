@@ -19,6 +19,7 @@ from ..units import converted, printed, unit_for
 from .arrays import FloatArray
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.axes._base import _AxesBase
     from matplotlib.axis import Axis
@@ -47,6 +48,7 @@ FRICTION_COEFFICIENT = "friction coefficient"
 ASPERITY_FRICTION = "asperity friction"
 FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
+POINTS_IN_INCH = 72.0  # pt, by definition
 TICKS_OF_BAR = 4  # of a short bar of colours, about; a choice, by looking at pictures of 85 mm
 NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
 INTERPOLATED_BETWEEN = "interpolated"  # of a dashed line between points
@@ -139,7 +141,7 @@ def head(figure: Figure, title: str) -> None:
     from matplotlib.font_manager import FontProperties
 
     size = FontProperties(size=rcParams["figure.titlesize"]).get_size_in_points()
-    letters = int(72.0 * figure.get_figwidth() / (TITLE_LETTER * size))
+    letters = int(POINTS_IN_INCH * figure.get_figwidth() / (TITLE_LETTER * size))
     figure.suptitle("\n".join(fill(line, letters) for line in title.splitlines()))
 
 
@@ -237,6 +239,17 @@ def speed_label(speed: np.ndarray) -> str:
     if not (speed < 0).any():
         return axis_label("speed")
     return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
+
+
+def shift_right(axes: Axes, artists: Iterable[Artist], distance: float) -> None:
+    """Draw ``artists`` of ``axes`` so far to the right of their places [pt], whatever the scale of the axis."""
+    from matplotlib.transforms import ScaledTranslation
+
+    figure = axes.get_figure()
+    assert figure is not None
+    shift = ScaledTranslation(distance / POINTS_IN_INCH, 0.0, figure.dpi_scale_trans)
+    for artist in artists:
+        artist.set_transform(axes.transData + shift)
 
 
 def key_above(axes: Axes, columns: int = 3) -> int:

@@ -115,6 +115,7 @@ def draw_curve(
         as_bars=interval == "bars",
         has_interval=interval != "none",
         without=without,
+        others=len(before),
         **{"color": _next_colour(before)} | style | {"label": figures.plain_words(name)},
     )
     drawn = DrawnCurve(

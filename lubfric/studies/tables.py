@@ -33,6 +33,14 @@ if TYPE_CHECKING:
 OF_INTERVAL = (("model_error", "--"), ("sampling_error", ":"))
 
 BAND = "95 % interval"
+
+# Distance of the bars of curves on the same axes at the same speed [pt]. A choice, by looking at the figures: caps are
+# 5 pt wide.
+BAR_DISTANCE = 4.0
+
+# Width [pt] and opacity of the edges of a band over another one. A choice, by looking at the figures.
+BAND_EDGE_WIDTH = 0.8
+BAND_EDGE_ALPHA = 0.6
 # Lines of operating points, at most. A choice, by looking at the figures.
 MOST_OF_POINTS = 10
 
@@ -239,11 +247,13 @@ def interval_band(
     has_parts: bool = True,
     as_bars: bool = False,
     color: Any = figures.BLUE,
+    others: int = 0,
 ) -> list[Line2D]:
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
     the model and the finite surface leave by themselves, unless not ``has_parts``; ``as_bars``: as a bar at each point
-    instead. ``line``: (speeds, f) of a smooth curve to draw the band about. ``color``: of all of it. Returns the thin
-    lines."""
+    instead. ``line``: (speeds, f) of a smooth curve to draw the band about. ``color``: of all of it. ``others``: number
+    of curves on the axes already, beside whose bars those of this one are, and in whose bands its band has edges.
+    Returns the thin lines."""
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -269,11 +279,16 @@ def interval_band(
         band += ", model-form error where known"
     if as_bars:
         lengths = f - columns["interval_low"], columns["interval_high"] - f
-        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
+        bars = ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
+        if others:
+            direction = 1 if others % 2 else -1
+            figures.shift_right(ax, bars.get_children(), direction * BAR_DISTANCE * ((others + 1) // 2))
         return []
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
     ax.fill_between(wide, sides[0], sides[1], color=color, alpha=0.2, lw=0, label=band)
+    for side in sides if others else ():
+        ax.plot(wide, side, color=color, lw=BAND_EDGE_WIDTH, alpha=BAND_EDGE_ALPHA)
     freedom = columns.get("sampling_freedom", unknown)
     of_sample = [half_width_of_error(*pair) for pair in zip(columns.get("sampling_error", unknown), freedom)]
     at_95 = dict(columns) | {"sampling_error": np.array(of_sample)}
@@ -309,12 +324,13 @@ def friction_over_speed(
     as_bars: bool = False,
     has_interval: bool = True,
     without: Container[str] = (),
+    others: int = 0,
     **style: Any,
 ) -> FrictionLines:
-    """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
-    `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are omitted; ``style``:
-    of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is known to
-    `DRAWN_ERROR` there, and dashed to `LARGEST_BETWEEN`. Points that failed, and rest, are omitted."""
+    """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``,
+    ``others``: as of `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are
+    omitted; ``style``: of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f
+    is known to `DRAWN_ERROR` there, and dashed to `LARGEST_BETWEEN`. Points that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {name: column[order] for name, column in columns.items()}
@@ -327,7 +343,7 @@ def friction_over_speed(
     errors: list[Line2D] = []
     if has_interval:
         about = line and line[:2]
-        errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color)
+        errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         if curve is not None and error <= LARGEST_BETWEEN:

@@ -12,7 +12,9 @@ from small_study import SCENE
 import lubfric
 from lubfric._base import figures
 from lubfric.output import main
+from lubfric.quantities import NUMBERS
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
+from lubfric.studies import draw_curve
 from lubfric.time import friction_over_time
 
 MODEL = lubfric.prepare(SCENE)
@@ -103,6 +105,25 @@ def test_curves_on_the_same_axes_differ_and_are_named_once(curve):
     box = ax.yaxis.label.get_window_extent()
     assert narrow.bbox.y0 <= box.y0 and box.y1 <= narrow.bbox.y1
     assert curve.coefficient.max() < ax.get_ylim()[1] and ax.get_ylim()[0] == 0.0
+
+
+def test_bars_of_curves_on_the_same_axes_are_beside_each_other():
+    """At one speed on the screen, in points of an inch; markers stay at their speed."""
+    speeds = np.array([0.01, 0.1])
+    columns = {name: np.ones(2) for name in (*NUMBERS, "model_error")}
+    columns |= {"speed": speeds, "coefficient": np.array([0.1, 0.1]), "contact_load": np.ones(2)}
+    columns |= {"interval_low": np.array([0.08, 0.08]), "interval_high": np.array([0.12, 0.12])}
+    ax = axes()
+    for name in ("one", "two", "three"):
+        draw_curve(ax, columns, name, interval="bars")
+    places = []
+    for bars in ax.containers:
+        (upper, *_) = bars.lines[1]
+        places.append(upper.get_transform().transform(upper.get_xydata())[:, 0] * 72 / ax.figure.dpi)
+        np.testing.assert_allclose(upper.get_xdata(), speeds)
+    (first, *others) = places
+    assert [float(np.ptp(other - first)) for other in others] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert [float((other - first)[0]) for other in others] == pytest.approx([4.0, -4.0])
 
 
 def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
