@@ -13,12 +13,12 @@ from ..models.load_sharing import OF_ROLLING
 from ..models.shared import (
     GatheredTexts,
     Prepared,
+    Sliding,
     Violation,
-    at_largest_ends,
     below_and_above,
     gathered_on_curve,
     is_by_sliding,
-    largest_at_load,
+    largest_of_each,
     percent,
     student,
 )
@@ -28,6 +28,7 @@ from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
 from .registry import run_model_of
+from .scene_in_time import value_at
 from .transient_deterministic import REST
 
 if TYPE_CHECKING:
@@ -381,8 +382,11 @@ def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray]) -> np
     sliding = np.abs(columns["sliding_speed"])
     if scene.bodies.boundary_friction_table is not None:  # f_b changes with the motion
         return np.full(sliding.size, math.inf)
-    at_most = at_largest_ends(scene, float(np.max(sliding, initial=0.0)))
-    by_sliding = [largest_at_load(at_most, load, speed) for load, speed in zip(columns["load"], sliding)]
+    radii = [value_at(scene, "radius", scene.bodies.radius, time) for time in columns["time"]]
+    moments = [
+        Sliding(load=load, radius=radius, speed=speed) for load, radius, speed in zip(columns["load"], radii, sliding)
+    ]
+    by_sliding = largest_of_each(scene, moments)
     by_rolling = OF_ROLLING * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
     return np.array(by_sliding, float) + by_rolling
 

@@ -178,6 +178,26 @@ def test_no_time_of_a_run_has_an_interval_beyond_the_limits_of_the_shear_stress(
         np.testing.assert_array_equal(high, run.columns["interval_high"])
 
 
+def test_the_largest_f_of_a_moment_does_not_depend_on_what_follows():
+    """Asperities carry all but 0.5 % of the load, so the upper end of the range of f_b alone gives f at the upper end.
+    Later the surfaces are so fast that the oil decides the largest f."""
+    friction = [0.08, 0.06, 0.11]
+    scene = paper_scene(
+        contact=SMALL,
+        bodies={"boundary_friction_coefficient": friction},
+        lubricant={"eyring_stress": 5e6},
+        numerics=PATCH,
+    )
+    faster = Ramp(start=2e-4, end=1.0, until=1e-3)
+    of_run = scene.with_(transient=Transient(duration=1.0, speed=faster))
+    short, long = (lubfric.transient(of_run, times) for times in ([0.0, 1e-8], [0.0, 1e-8, 3e-4]))
+    load_ratio = long.contact_load[1] / long.load[1]
+    by_contacts = friction[2] * load_ratio
+    film = long.coefficient[1] - friction[0] * load_ratio
+    assert long.contact_load[-1] == 0 and load_ratio > 0.99
+    assert by_contacts + film <= long.largest_friction[1] == pytest.approx(short.largest_friction[1], rel=1e-3)
+
+
 def test_the_budget_of_the_mean_is_that_of_a_steady_contact_at_one_speed(held):
     steady = lubfric.friction(STRIPS)
     budget = held.average().budget

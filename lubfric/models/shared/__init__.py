@@ -59,7 +59,7 @@ from .heat import (
     surroundings,
     typical_heat,
 )
-from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
+from .largest_friction import Sliding, largest_of_each, largest_of_oil, largest_sliding_friction
 from .memo import (
     AttenuatedSummitsKey,
     BalanceKey,

@@ -5,12 +5,12 @@ thinnest film above a boundary film. So the sliding part of f is at most the mea
 """
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...oil import Lubricant, shear_stress
-from ...scene import Scene, value_of
+from ...scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from .checks import peak_hertz_pressure
 from .unknown_limit import LIMIT_RANGE
 
@@ -49,29 +49,60 @@ def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, slidin
     return max(mean, float(np.max(of_higher / higher)))
 
 
+@dataclass(frozen=True, kw_only=True)
+class Sliding:
+    """What the largest f depends on beside the inputs of a scene: ``load`` [N], reduced ``radius`` [m], and ``speed``
+    [m/s] of sliding, its magnitude."""
+
+    load: float
+    radius: float
+    speed: float
+
+
 def largest_sliding_friction(scene: Scene, speed: float) -> float:
     """Return the largest sliding part of f [-] of ``scene`` at ``speed`` [m/s], with its inputs at those ends of their
     ranges that allow the most; infinite in pure rolling, where no stress is at a limit by sliding."""
     sliding = abs(scene.motion.slide_roll_ratio * speed)
-    return largest_at_load(at_largest_ends(scene, sliding), scene.bodies.load, sliding)
+    return largest_of_each(scene, [Sliding(load=scene.bodies.load, radius=scene.bodies.radius, speed=sliding)])[0]
 
 
-def at_largest_ends(scene: Scene, sliding: float) -> Scene:
-    """Return ``scene`` with each input that has a range at that end of it that allows the largest f, where the surfaces
-    slide at ``sliding`` [m/s]."""
-    most = {}
-    for name, *ends in scene.at_ends():
-        end = max((scene, *ends), key=lambda each: largest_at_load(each, each.bodies.load, sliding))
-        most[name] = value_of(end, name)
-    return replace(scene, ranges=()).with_keys(most) if most else scene
+def largest_of_each(scene: Scene, moments: list[Sliding]) -> list[float]:
+    """Return the largest sliding part of f [-] of ``scene`` at each of the ``moments``, infinite where it does not
+    slide.
+
+    The inputs that have a range are at those ends that allow the most at that moment. f_b is always at its upper end:
+    where the stress of the oil is the larger, f_b does not change the bound.
+    """
+    at_f_b = _at_largest_boundary_friction(scene)
+    nominal = replace(at_f_b, ranges=())
+    candidates = {name: (nominal, *ends) for name, *ends in at_f_b.at_ends()}
+    scenes: dict[tuple[float, ...], Scene] = {}
+    largest = []
+    for moment in moments:
+        best = {
+            name: value_of(max(each, key=lambda end: _largest_at(end, moment)), name)
+            for name, each in candidates.items()
+        }
+        values = tuple(best.values())
+        if values not in scenes:
+            scenes[values] = nominal.with_keys(best) if best else nominal
+        largest.append(_largest_at(scenes[values], moment))
+    return largest
 
 
-def largest_at_load(scene: Scene, load: float, sliding: float) -> float:
-    """Return the `largest_of_oil` of ``scene``, whose ranges do not count, under a ``load`` [N] that slides at
-    ``sliding`` [m/s]; infinite where it does not slide."""
-    if sliding == 0:
+def _at_largest_boundary_friction(scene: Scene) -> Scene:
+    """Return ``scene`` with f_b at the upper end of its range, if it has one; the other ranges are kept."""
+    ends = [most for name, _, most in scene.ranges if name == BOUNDARY_FRICTION_KEY]
+    return scene.with_keys({BOUNDARY_FRICTION_KEY: ends[0]}) if ends else scene
+
+
+def _largest_at(scene: Scene, moment: Sliding) -> float:
+    """Return the `largest_of_oil` of ``scene``, whose ranges do not count, at a ``moment``; infinite where it does not
+    slide."""
+    if moment.speed == 0:
         return math.inf
     bodies = scene.bodies
     film = THINNEST_FILM if bodies.boundary_film is None else bodies.boundary_film
-    peak = peak_hertz_pressure(scene) * math.sqrt(load / bodies.load)
-    return largest_of_oil(scene.lubricant, bodies.boundary_friction_coefficient, peak, sliding, film)
+    load_over_radius = moment.load / bodies.load * bodies.radius / moment.radius
+    peak = peak_hertz_pressure(scene) * math.sqrt(load_over_radius)
+    return largest_of_oil(scene.lubricant, bodies.boundary_friction_coefficient, peak, moment.speed, film)
