@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from ..models.shared import sentence
+from ..models.shared import part_in_words, sentence
 from ..quantities import COLUMNS
 from ..scene import Scene
 from ..studies import CurveResult, Law, StribeckResult
@@ -107,7 +107,7 @@ def formula_of_curve(law: Law | str, curve: CurveResult) -> str:
     if not law:
         return ""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
-        deviation, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        deviation, within = map(part_in_words, (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
         warning = (
             f'<p class="warning">{escape(sentence(law.warning.removeprefix("warning: ")))}</p>' if law.warning else ""

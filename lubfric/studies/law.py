@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from .._base import FloatArray, Shown, plain, validate
 from ..errors import InputError
-from ..models.shared import LARGE_NUMERICAL_ERROR, percent
+from ..models.shared import LARGE_NUMERICAL_ERROR, part_in_words, percent
 from ..scene import Scene
 from .interpolate import Interpolant
 
@@ -135,12 +135,12 @@ class Law(Shown):
         """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as
         text."""
         of_points = (
-            f"whose points are known within {100 * self.interval:.2g} % (95 %, model included)"
+            f"whose points are known within {part_in_words(self.interval)} (95 %, model included)"
             if np.isfinite(self.interval)
             else "whose points have errors that are not known"
         )
         return (
-            f"off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves, "
+            f"off by {part_in_words(self.rms)} (rms), {part_in_words(self.largest)} at most, from the solved curves, "
             f"{of_points}"
         )
 
@@ -150,7 +150,7 @@ class Law(Shown):
         if self.largest <= LARGEST_OF_LAW:
             return ""
         return (
-            f"warning: the formula deviates by up to {100 * self.largest:.2g} % from the solved curves, above "
+            f"warning: the formula deviates by up to {part_in_words(self.largest)} from the solved curves, above "
             f"{100 * LARGEST_OF_LAW:g} %. Recommendation: interpolate the table of the curve"
         )
 
@@ -197,7 +197,7 @@ class Law(Shown):
         return f"/*\n{comment}\n */\n#include <math.h>\n\n{head}\n{{\n{numbers}{range_check}{lines}    return f;\n}}\n"
 
     def _facts(self) -> dict[str, str]:
-        return {"": self.name, "rms": f"{100 * self.rms:.2g} %", "largest": f"{100 * self.largest:.2g} %"}
+        return {"": self.name, "rms": part_in_words(self.rms), "largest": part_in_words(self.largest)}
 
 
 def _range(symbol: str, ends: tuple[float, float], unit: str) -> str:

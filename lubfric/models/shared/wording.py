@@ -41,12 +41,14 @@ def part_in_words(part: float, digits: int = 2) -> str:
     """Return a ``part`` in percent with so many ``digits``; "less than 0.01 %" below `LEAST_STATED_PART`."""
     if 0 < part < LEAST_STATED_PART:
         return f"less than {100 * LEAST_STATED_PART:g} %"
-    return f"{100 * part:.{digits}g} %"
+    return f"{float(f'{100 * part:.{digits}g}'):g} %"  # 100 %, not 1e+02 %
 
 
 def rise_in_words(rise: float) -> str:
     """Return the largest temperature ``rise`` [K] to two digits; "less than 0.1 K" below `LEAST_STATED_RISE`."""
-    return f"less than {LEAST_STATED_RISE:g} K" if rise < LEAST_STATED_RISE else f"up to {rise:.2g} K"
+    if rise < LEAST_STATED_RISE:
+        return f"less than {LEAST_STATED_RISE:g} K"
+    return f"up to {float(f'{rise:.2g}'):g} K"  # 120 K, not 1.2e+02 K
 
 
 def standard_error_in_words(tolerance: float) -> str:
