@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import FrictionResult
 from ..models import title_of
-from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, is_by_sliding, part_in_words, percent
+from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, is_by_sliding, percent, percent_or_less
 from ..quantities import COLUMNS, counted, worded_value
 from ..scene import Scene
 from ..studies import LARGEST_BETWEEN, CurveResult, StribeckResult, TractionResult, columns_of_curve
@@ -80,7 +80,7 @@ def curve_answer(
                 f"the centre, {point.film_to_roughness_ratio:.3g} times Sq."
             )
     share = point.contact_load / (point.contact_load + point.film_load)
-    rubbing = point.decision.contact_load_in_words.format(part=part_in_words(share, 3))
+    rubbing = point.decision.contact_load_in_words.format(part=percent_or_less(share, 3))
     if math.isfinite(point.mean_gap):
         rubbing += f"; the mean separation of the surfaces is {plain_number(point.mean_gap, 'm')}"
     sentences.append(f"{rubbing}.")

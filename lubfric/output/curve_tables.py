@@ -4,7 +4,7 @@ from html import escape
 
 import numpy as np
 
-from ..models.shared import part_in_words, sentence
+from ..models.shared import percent_or_less, sentence
 from ..quantities import COLUMNS
 from ..scene import Scene
 from ..studies import CurveResult, Law, StribeckResult
@@ -107,14 +107,14 @@ def formula_of_curve(law: Law | str, curve: CurveResult) -> str:
     if not law:
         return ""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
-        deviation, within = map(part_in_words, (law.largest, curve.between))
+        deviation, within = (percent_or_less(error, before="at most ") for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
         warning = (
             f'<p class="warning">{escape(sentence(law.warning.removeprefix("warning: ")))}</p>' if law.warning else ""
         )
         text = (
             f"{warning}<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It "
-            f"deviates by at most {deviation} from the curve through the solved points, which adds at most {within} "
+            f"deviates by {deviation} from the curve through the solved points, which adds {within} "
             f"between them to the errors of the points{largest_error_of_points(curve)}. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )

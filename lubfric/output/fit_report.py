@@ -12,7 +12,7 @@ import numpy as np
 from .. import studies
 from .._base import __version__
 from ..models import title_of
-from ..models.shared import LARGE_NUMERICAL_ERROR, part_in_words, percent, sentence
+from ..models.shared import LARGE_NUMERICAL_ERROR, percent, percent_or_less, sentence
 from ..quantities import KEYS, counted, worded_value
 from ..studies import FitResult
 from ..units import converted, in_unit_of, interval_in_words, plain_number, printed, unit_of_largest, with_interval
@@ -134,7 +134,7 @@ def fit_answer(result: FitResult) -> list[str]:
     sentences = [
         f"{values[0].upper()}{values[1:]}{for_sample}.",
         f"The fitted curve deviates from the {counted(measured.x.size, 'measured points')} of {measured.source}, over "
-        f"{what}, by {part_in_words(result.rms_deviation)} of the measured f (root mean square).",
+        f"{what}, by {percent_or_less(result.rms_deviation)} of the measured f (root mean square).",
     ]
     if not result.describes_data:
         return [*sentences, "No interval is valid, because the fit does not describe the data."]

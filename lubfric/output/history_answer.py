@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ..models.shared import part_in_words, sentence
+from ..models.shared import percent_or_less, sentence
 from ..quantities import counted
 from ..scene import Scene, moment_in_words
 from ..time import TransientResult, counts_in_average, in_motion, rolls, run_model_of
@@ -121,7 +121,7 @@ def _moment_of_least_film(result: TransientResult) -> str:
     if film <= 0.0:
         return f"at t = {_moment(result, index)}, where asperities carry all of the load"
     others = " and asperities carry the rest" if film < 1.0 else ""
-    return f"at t = {_moment(result, index)}, where it carries {part_in_words(film, 3)} of the load{others}"
+    return f"at t = {_moment(result, index)}, where it carries {percent_or_less(film, 3)} of the load{others}"
 
 
 def history_notes(scene: Scene, result: TransientResult) -> list[str]:

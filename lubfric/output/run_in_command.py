@@ -15,7 +15,7 @@ import numpy as np
 
 from .._base import __version__, figures, plain, table_bytes, write_whole
 from ..errors import InputError, OutputError
-from ..models.shared import part_in_words
+from ..models.shared import percent_or_less
 from ..running_in import RECORDED, RunIn, estimated_run_in, run_in
 from ..scene import Scene
 from ..studies import WITHIN_WORDS, in_words
@@ -96,7 +96,7 @@ def answer_lines(result: RunIn) -> list[str]:
         lines.append("No asperity yields.")
     elif result.shaken_down:
         lines.append(
-            f"The asperities yield on {part_in_words(dented)} of the map, and no further after {passes} "
+            f"The asperities yield on {percent_or_less(dented)} of the map, and no further after {passes} "
             f"{'pass' if passes == 1 else 'passes'}."
         )
     else:

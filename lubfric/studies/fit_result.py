@@ -19,8 +19,8 @@ from ..models.shared import (
     alpha_of_fit_in_words,
     consequence_of_numerical_error,
     gathered_on_curve,
-    part_in_words,
     percent,
+    percent_or_less,
     student,
 )
 from ..quantities import counted, worded_value
@@ -412,7 +412,7 @@ class FitResult(Renamed, Shown):
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             interval = self.one_sided_in_words(key) or " to ".join(ends)
             lines.append(f"  {key} = {value}, 95 % interval {interval}{note}")
-        scatter = f"{part_in_words(self.rms_deviation)} of the measured f"
+        scatter = f"{percent_or_less(self.rms_deviation)} of the measured f"
         lines.append(f"  root mean square deviation of the points from the fit: {scatter}")
         if self.tests is not None and self.tests.note:
             lines.append(f"  {self.tests.note}")

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from .._base import FloatArray, Shown, plain, validate
 from ..errors import InputError
-from ..models.shared import LARGE_NUMERICAL_ERROR, part_in_words, percent
+from ..models.shared import LARGE_NUMERICAL_ERROR, percent, percent_or_less
 from ..scene import Scene
 from .interpolate import Interpolant
 
@@ -135,13 +135,13 @@ class Law(Shown):
         """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as
         text."""
         of_points = (
-            f"whose points are known within {part_in_words(self.interval)} (95 %, model included)"
+            f"whose points are known within {percent(self.interval)} (95 %, model included)"
             if np.isfinite(self.interval)
             else "whose points have errors that are not known"
         )
         return (
-            f"off by {part_in_words(self.rms)} (rms), {part_in_words(self.largest)} at most, from the solved curves, "
-            f"{of_points}"
+            f"off by {percent_or_less(self.rms)} (rms), {percent_or_less(self.largest, before='at most ')}, from the "
+            f"solved curves, {of_points}"
         )
 
     @property
@@ -150,7 +150,7 @@ class Law(Shown):
         if self.largest <= LARGEST_OF_LAW:
             return ""
         return (
-            f"warning: the formula deviates by up to {part_in_words(self.largest)} from the solved curves, above "
+            f"warning: the formula deviates by up to {percent(self.largest)} from the solved curves, above "
             f"{100 * LARGEST_OF_LAW:g} %. Recommendation: interpolate the table of the curve"
         )
 
@@ -197,7 +197,7 @@ class Law(Shown):
         return f"/*\n{comment}\n */\n#include <math.h>\n\n{head}\n{{\n{numbers}{range_check}{lines}    return f;\n}}\n"
 
     def _facts(self) -> dict[str, str]:
-        return {"": self.name, "rms": part_in_words(self.rms), "largest": part_in_words(self.largest)}
+        return {"": self.name, "rms": percent_or_less(self.rms), "largest": percent_or_less(self.largest)}
 
 
 def _range(symbol: str, ends: tuple[float, float], unit: str) -> str:

@@ -15,8 +15,8 @@ from lubfric.models.shared import (
     gathered,
     gathered_in_table,
     gathered_on_curve,
-    part_in_words,
     percent_beside,
+    percent_or_less,
     rise_in_words,
     violations_by_model_error,
 )
@@ -141,7 +141,8 @@ def test_violations_are_sorted_by_the_size_of_their_effect_on_f():
     "part, text", [(0.0, "0 %"), (9e-5, "less than 0.01 %"), (1e-4, "0.01 %"), (0.123, "12 %"), (0.999, "100 %")]
 )
 def test_a_part_that_does_not_matter_has_no_digits(part, text):
-    assert part_in_words(part) == text
+    assert percent_or_less(part) == text
+    assert percent_or_less(part, before="at most ") == (text if "less" in text else f"at most {text}")
 
 
 @pytest.mark.parametrize("rise, text", [(6e-5, "less than 0.1 K"), (0.1, "up to 0.1 K"), (123.0, "up to 120 K")])

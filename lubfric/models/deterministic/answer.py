@@ -36,9 +36,9 @@ from ..shared import (
     is_near_zero,
     limit_bounds,
     limit_in_words,
-    part_in_words,
     peak_hertz_pressure,
     percent_beside,
+    percent_or_less,
     sides_of_parts,
     smooth_rolling_resistance,
     standard_error_in_words,
@@ -493,11 +493,11 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     strips."""
     thin, saturated = (numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
     touching = mean(result.split.touching / result.load for result in results)
-    on_touching = part_in_words(touching, 3)
-    text = f"load on gaps below the boundary film {part_in_words(thin, 3)} (on touching cells {on_touching})"
+    on_touching = percent_or_less(touching, 3)
+    text = f"load on gaps below the boundary film {percent_or_less(thin, 3)} (on touching cells {on_touching})"
     if saturated > 0:
         of = "asperity" if scene.lubricant.has_unlimited_stress else "film"
-        text += f", on film at its limiting stress {part_in_words(saturated, 3)}, which is part of the {of} load"
+        text += f", on film at its limiting stress {percent_or_less(saturated, 3)}, which is part of the {of} load"
     return text
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...film import heated_film, heated_stress
 from ...scene import Scene
-from ..shared import Heat, inlet_at, part_in_words, peclet_at, surroundings
+from ..shared import Heat, inlet_at, peclet_at, percent_or_less, surroundings
 from .result import DeterministicResult
 
 # Factor on the film by heat below which only Eq. (8) was checked.
@@ -64,7 +64,7 @@ def why_too_hot(heat: Heat | None) -> str:
     if factor >= LEAST_FILM and change <= MOST_CHANGE:
         return ""
     return (
-        f"heat reduces the film to {factor:.2g} of its thickness, and f by {part_in_words(change)}; the deterministic "
+        f"heat reduces the film to {factor:.2g} of its thickness, and f by {percent_or_less(change)}; the deterministic "
         f"model was checked down to {LEAST_FILM:g}, and up to {100 * MOST_CHANGE:g} %"
     )
 

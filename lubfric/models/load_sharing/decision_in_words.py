@@ -4,7 +4,7 @@ import math
 
 from ...contact import RoughContact
 from ...scene import Scene, budget
-from ..shared import Decision, part_in_words
+from ..shared import Decision, percent_or_less
 from .balance import Balance
 
 
@@ -31,7 +31,7 @@ def decision_of(
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
         if (error := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
-            text = f"the film's friction is not resolved (a pressure spike?): estimated error {part_in_words(error, 1)} of f"
+            text = f"the film's friction is not resolved (a pressure spike?): estimated error {percent_or_less(error, 1)} of f"
             notes = (*notes, text)
     return Decision(
         film_in_words=f"none, {balance.why_no_film}" if film is None else "full EHL",

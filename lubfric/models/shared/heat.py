@@ -26,7 +26,7 @@ from ...film import (
 )
 from ...oil import NO_LIQUID, Lubricant, shear_stress
 from ...scene import Scene, budget
-from .wording import LEAST_STATED_PART, part_in_words, percent, rise_in_words
+from .wording import LEAST_STATED_PART, percent, percent_or_less, rise_in_words
 
 if TYPE_CHECKING:
     from ...contact import ContactState
@@ -103,7 +103,8 @@ class Heat:
             return "not computed: without entrainment there is no film"
         if not self.is_evaluated:
             return "not computed: nothing slides, or the film is far outside its range"
-        return f"not computed: heat changes f by at most {part_in_words(self.change)}, less than the tolerance allows"
+        change = percent_or_less(self.change, before="at most ")
+        return f"not computed: heat changes f by {change}, less than the tolerance allows"
 
     @property
     def left_out(self) -> float:
@@ -120,17 +121,18 @@ class Heat:
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
-        inlet = f"neglected; it would make the film {part_in_words(1 - self.inlet.factor)} thinner"
+        inlet = f"neglected; it would make the film {percent_or_less(1 - self.inlet.factor)} thinner"
         if self.is_used:
             inlet = (
                 f"it multiplies the film by {self.inlet.factor:.3g} (Gupta et al.; by Wilson and Sheu "
                 f"{self.inlet.other:.3g})"
             )
-        inside = f"neglected; it would change f by at most {part_in_words(self.change)} (limit: {limit})"
+        change = percent_or_less(self.change, before="at most ")
+        inside = f"neglected; it would change f by {change} (limit: {limit})"
         if self.heated is not None:
             change = f"{-100 * self.change:+.2g} %"
             if abs(self.change) < LEAST_STATED_PART:
-                change = part_in_words(abs(self.change))
+                change = percent_or_less(abs(self.change))
             inside = (
                 f"it changes f by {change} (surfaces {rise_in_words(self.flash)} and film "
                 f"{rise_in_words(self.film_rise)} warmer)"

@@ -37,11 +37,12 @@ def percent(value: float, digits: int = 2) -> str:
     return "< 0.001 %" if 0 < value < INVISIBLE else f"{100 * value:.{digits}g} %"
 
 
-def part_in_words(part: float, digits: int = 2) -> str:
-    """Return a ``part`` in percent with so many ``digits``; "less than 0.01 %" below `LEAST_STATED_PART`."""
+def percent_or_less(part: float, digits: int = 2, *, before: str = "") -> str:
+    """Return a ``part`` in percent with so many ``digits``, and ``before`` it such words as "at most "; "less than 0.01
+    %" below `LEAST_STATED_PART`."""
     if 0 < part < LEAST_STATED_PART:
         return f"less than {100 * LEAST_STATED_PART:g} %"
-    return f"{float(f'{100 * part:.{digits}g}'):g} %"  # 100 %, not 1e+02 %
+    return f"{before}{float(f'{100 * part:.{digits}g}'):g} %"  # 100 %, not 1e+02 %
 
 
 def rise_in_words(rise: float) -> str:
