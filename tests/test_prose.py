@@ -98,22 +98,29 @@ def is_words(node: ast.expr) -> bool:
 def readings(node: ast.AST, names: frozenset[str] = frozenset()) -> Iterator[int]:
     """Lines that look into a sentence: words in it, how it begins or ends, whether it is a certain one; or put words in
     place of others."""
-    names |= names_of_prose(node)
+    left = [(node, names)]
+    while left:
+        (node, outer) = left.pop()
+        names = outer | names_of_prose(node)
+        left += [(part, names) for part in ast.iter_child_nodes(node)]
+        if reads_prose(node, names):
+            yield node.lineno
+
+
+def reads_prose(node: ast.AST, names: frozenset[str]) -> bool:
+    """Whether a node itself does so."""
     if isinstance(node, ast.Compare):
         sides = [node.left, *node.comparators]
         into = any(isinstance(op, (ast.In, ast.NotIn)) for op in node.ops)
         stated = [side for side in (sides[1:] if into else sides) if is_prose(side, names)]
-        if (stated and any(map(is_text, sides))) or any(map(is_words, sides)):
-            yield node.lineno
-    elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        return bool(stated and any(map(is_text, sides))) or any(map(is_words, sides))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
         of_prose = node.func.attr in READ and is_prose(node.func.value, names)
         by_words = node.func.attr in (*READ, *EDITED) and any(
             is_words(part) or isinstance(part, ast.Starred) for part in node.args[:1]
         )
-        if of_prose or by_words:
-            yield node.lineno
-    for part in ast.iter_child_nodes(node):
-        yield from readings(part, names)
+        return of_prose or by_words
+    return False
 
 
 def test_nothing_is_decided_by_reading_prose():

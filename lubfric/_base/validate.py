@@ -122,6 +122,8 @@ def _within(name: str, value: float, unit: str, above: float, minimum: float, ma
     largest = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     minimum = max(minimum, -largest)
     maximum = min(maximum, largest)
+    if type(value) is float and above < value and minimum <= value <= maximum and (value == 0 or abs(value) >= least):
+        return value
     low = f"above {above:g}, up to" if above >= minimum else f"{minimum:g} to"
     shown_unit = "" if unit == "-" else f" {unit}"
     allowed = f"{low} {maximum:g}{shown_unit}"

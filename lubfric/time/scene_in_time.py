@@ -3,9 +3,13 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, TypeVar
 
 from ..models.shared import film_lubricant, inlet_at
-from ..scene import Constant, History, Scene, Transient, sampled_times
+from ..oil import Lubricant
+from ..scene import Bodies, Constant, History, Motion, Scene, Transient, sampled_times
+
+Section = TypeVar("Section", Bodies, Lubricant, Motion)
 
 # [-] slide-roll ratio beyond which a moment counts as one of sliding alone; a choice: any number far above 2 does.
 MOST_SLIDE_ROLL_RATIO = 1e6
@@ -30,9 +34,10 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
 
     bodies = scene.bodies
     oil = scene.lubricant
-    speed = now("speed", scene.motion.entrainment_speed)
+    motion = scene.motion
+    speed = now("speed", motion.entrainment_speed)
     sliding = sliding_at(scene, time, side)
-    bodies = replace(
+    bodies = with_values(
         bodies,
         load=now("load", bodies.load),
         radius=now("radius", bodies.radius),
@@ -40,14 +45,20 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
         boundary_friction_coefficient=bodies.boundary_friction(sliding, oil.temperature),
         boundary_friction_table=None,
     )
-    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
+    oil = with_values(oil, viscosity=now("viscosity", oil.viscosity))
     ratio = 0.0
     if abs(sliding) > MOST_SLIDE_ROLL_RATIO * abs(speed):
         ratio = math.copysign(MOST_SLIDE_ROLL_RATIO, sliding)
     elif sliding:
         ratio = sliding / speed
-    motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
+    motion = with_values(motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
     return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
+
+
+def with_values(section: Section, **values: Any) -> Section:
+    """Return a ``section`` of a scene with these ``values``: itself, which is checked, if it has them."""
+    has_them = all(getattr(section, name) == value for name, value in values.items())
+    return section if has_them else replace(section, **values)
 
 
 def sliding_at(scene: Scene, time: float, side: str = "before") -> float:

@@ -53,7 +53,10 @@ POINTS = {
 }
 
 
-@pytest.mark.parametrize("name", POINTS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.slow] * (name == "pure rolling, roughness rests")) for name in POINTS],
+)
 def test_forces_add_up_to_f_within_what_their_loads_allow(name):
     scene, speed, (least, most) = POINTS[name]
     result = lubfric.friction(scene, speed)

@@ -117,7 +117,9 @@ def test_an_axis_of_a_patch_with_many_cells_keeps_longer_ones():
 @pytest.mark.parametrize(
     ("scene", "work", "more"),
     [
-        (SCENE.with_(numerics={"model": "deterministic", "tolerance": 4e-3}), 1.0, 60.0),
+        pytest.param(
+            SCENE.with_(numerics={"model": "deterministic", "tolerance": 4e-3}), 1.0, 60.0, marks=pytest.mark.slow
+        ),
         (PATCH, 0.3, 3.0),
     ],
 )

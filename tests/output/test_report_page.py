@@ -177,7 +177,9 @@ def test_a_history_stands_as_it_was_given_beside_its_range():
     assert 'kind = "table", times = [0.0, 0.01, 0.02], values = [1.0, -2.0, 1.0], repeat = true' in row
 
 
-@pytest.mark.parametrize("kind", COMMANDS)
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=[pytest.mark.slow] * (kind not in ("run", "history"))) for kind in COMMANDS]
+)
 def test_every_report_prints_on_some_sheets(folder_of, kind):
     folder = folder_of(kind)
     report = (folder / "out" / "report.html").as_uri()

@@ -601,7 +601,7 @@ def least_squares_of_a_line(measured):
     return float(relative @ left) / float(relative @ relative), share
 
 
-@pytest.mark.parametrize("bounds, start", [((0.05, 0.2), 0.06), ((0.01, 0.9), 0.5)])
+@pytest.mark.parametrize("bounds, start", [((0.05, 0.2), 0.06), pytest.param((0.01, 0.9), 0.5, marks=pytest.mark.slow)])
 def test_the_boundary_friction_alone_takes_no_further_balance(monkeypatch, bounds, start):
     """f = f_b F_C/F_T + film at each point: the least squares of a line. One curve has the balances, one is the
     answer."""

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scene_text import paper_scene
 
@@ -261,6 +261,7 @@ plain = st.recursive(
 )
 
 
+@settings(max_examples=50)
 @given(value=plain)
 def test_plain_values_come_back_the_same(value):
     again = decode(b"".join(encode(value)), {})
