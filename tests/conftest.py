@@ -70,6 +70,14 @@ def long_lines() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="session", autouse=True)
+def unsynced() -> Iterator[None]:
+    """Files are not forced onto the disk, for which tests would wait: processes are killed here, and no machine."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", lambda handle: None)
+        yield
+
+
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The checkout: docs, examples and packages are found from here."""

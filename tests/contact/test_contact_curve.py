@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import PchipInterpolator
 
 import lubfric
 from lubfric.contact import contact_curve
@@ -32,6 +33,19 @@ def test_the_stated_error_holds_where_the_contact_is_solved(surface):
     solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=below, tolerance=1e-7)
     assert abs(curve.at(below)[0] - solved.mean_gap) <= curve.errors_at(below)[0] <= 3e-3 * curve.touching_gap
     assert lightest < 1e-2 * HEAVIEST and curve.errors_at(0.0)[0] == curve.errors_at(below)[0]
+
+
+def test_the_stated_error_is_that_of_cubics_without_one_of_the_nodes_around(surface):
+    """By the cubics of scipy, of a curve of many nodes and of one of three, which has lines."""
+    for heaviest, accuracy in ((HEAVIEST, 3e-3), (0.04 * HEAVIEST, 0.5)):
+        curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=heaviest, accuracy=accuracy)
+        x = -np.log(curve.mean_pressure)
+        gap = curve.mean_gap
+        inner = range(1, x.size - 1)
+        cubics = {i: PchipInterpolator(np.delete(x, i), np.delete(gap, i)) for i in inner}
+        error = {i: abs(float(cubics[i](x[i])) - gap[i]) for i in inner}
+        expected = [max(error.get(j, 0.0) for j in range(i - 1, i + 3)) for i in range(x.size - 1)]
+        np.testing.assert_allclose(curve.gap_error, expected, rtol=1e-6, atol=1e-12 * gap[-1])
 
 
 def test_it_is_part_of_the_numerical_error_of_f():
