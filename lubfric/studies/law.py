@@ -140,8 +140,8 @@ class Law(Shown):
             else "whose points have errors that are not known"
         )
         return (
-            f"off by {percent_or_less(self.rms)} (rms), {percent_or_less(self.largest, before='at most ')}, from the "
-            f"solved curves, {of_points}"
+            f"off by {percent_or_less(self.rms)} (rms), {percent_or_less(self.largest)} at most, from the solved curves, "
+            f"{of_points}"
         )
 
     @property
