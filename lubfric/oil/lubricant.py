@@ -99,7 +99,12 @@ class Lubricant(Renamed, Shown):
         alpha = "pressure_viscosity_coefficient"
         least = math.exp(-ROELANDS_LOG_VISCOSITY)
         if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:
-            raise InputError(" = 0 1/Pa has no Roelands exponent", alpha, "> 0 1/Pa, or viscosity_law = 'constant'")
+            raise InputError(
+                " is missing or 0 1/Pa, and the Roelands law needs it",
+                alpha,
+                "> 0 1/Pa, or viscosity_law = 'constant'",
+                "give it, or state the oil by lubricant.grade or lubricant.nu40, from which it is estimated",
+            )
         if self.viscosity_law == "roelands" and self.viscosity <= least:
             message = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
             raise InputError(message, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")

@@ -210,14 +210,14 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
 
 
 def largest_error_of_points(curve: StribeckResult) -> str:
-    """Return how large half the 95 % interval of f at a point of a curve is at most, as text to be appended; "" where
-    that is not known, or f is near 0."""
+    """Return how far an end of the 95 % interval of f is from f at a point of a curve at most, as text to be appended;
+    "" where that is not known, or f is near 0."""
     if any(point is not None and point.uncertainty.is_near_zero for point in curve.points):
         return ""
     good = np.isfinite(curve.coefficient) & (curve.coefficient != 0)
-    low, high = curve.uncertainty.interval[good].T
-    widths = 0.5 * (high - low) / np.abs(curve.coefficient[good])
-    return f" (up to {percent(float(widths.max()))} at 95 %)" if np.isfinite(widths).all() else ""
+    f = curve.coefficient[good]
+    sides = np.abs(curve.uncertainty.interval[good].T / f - 1.0)
+    return f" (up to {percent(float(sides.max()))} at 95 %)" if np.isfinite(sides).all() else ""
 
 
 def minimum_in_words(curve: StribeckResult) -> str:

@@ -10,6 +10,9 @@ from ..quantities import counted
 
 # What a smallest film of `FLOOR` is.
 GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
+# Smallest film [m], a mean over strips, below which some of them have that gap. A choice: those of gears with one to
+# four strips were 1.01 to 3.4 nm.
+NEAR_FLOOR = 5.0 * FLOOR
 # Relative rounding error of that gap as a mean over strips. A choice: any number between rounding and a nanometre does.
 FLOOR_ROUNDING = 1e-6
 # Loads that say what carries F_T.
@@ -24,8 +27,13 @@ def is_gap_of_touching(film: float) -> bool:
 
 
 def note_on_touching(films: Iterable[float]) -> str:
-    """Return what a smallest film of 1 nm is, in a sentence; "" where none of the smallest ``films`` [m] is one."""
-    return f"A smallest film of 1 nm is {GAP_OF_TOUCHING}." if any(map(is_gap_of_touching, films)) else ""
+    """Return what a smallest film of 1 nm is, in a sentence, and what a larger one below `NEAR_FLOOR`; "" where none of
+    the smallest ``films`` [m] is one."""
+    near = [film for film in films if is_gap_of_touching(film) or FLOOR < film < NEAR_FLOOR]
+    if not near:
+        return ""
+    of_means = f"; one below {1e9 * NEAR_FLOOR:.0f} nm is a mean with strips or moments that have this gap"
+    return f"A smallest film of 1 nm is {GAP_OF_TOUCHING}{'' if all(map(is_gap_of_touching, near)) else of_means}."
 
 
 def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:

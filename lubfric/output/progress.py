@@ -29,7 +29,7 @@ _active: ProgressLine | None = None
 class ProgressLine:
     """Use as ``with ProgressLine("points") as progress: progress.update(done, total)``.
 
-    ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a
+    A ``unit`` that begins with "%" is of a total of 100. ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a
     bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
     """
 
@@ -85,7 +85,9 @@ class ProgressLine:
     def text(self) -> str:
         """The line: what is done, the time passed, the time left and the part of the point, where they are known."""
         passed = time.monotonic() - self._begun
-        head = f"{self.done:.4g} of {self.total:.4g} {self.unit}, " if self.total else ""
+        is_part = self.unit.startswith("%")
+        done = f"{self.done:.1f}" if is_part else f"{self.done:.4g} of {self.total:.4g}"
+        head = f"{done} {self.unit}, " if self.total else ""
         text = f"{head}{in_words(passed)} passed"
         solved = self.done - (self._first or 0.0)
         if self.time_left is not None:

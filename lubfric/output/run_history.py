@@ -58,7 +58,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             return
         reported = part
         time_left = "" if is_end else left.in_words(FILES_SECONDS)
-        head = f"{share:.0f} % of the time{time_left}: t = {now:.5g} of {duration:g} s, "
+        head = f"{share:.0f} % of the duration{time_left}: t = {now:.5g} of {duration:g} s, "
         speeds = {name: np.array([row[name]]) for name in ("entrainment_speed", "sliding_speed")}
         friction = f"U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:z.5f}"
         if not in_motion(speeds, fastest)[0]:
@@ -86,7 +86,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         assert estimate.run is not None
         run = estimate.run
         left = _time_left(scene, run)
-        with ProgressLine("% of the time", left) as shown:
+        with ProgressLine("% of the duration", left) as shown:
             shown.update(0.0, 100.0)
             result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
         try:

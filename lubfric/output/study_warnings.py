@@ -37,9 +37,9 @@ def _coverage_of_notes(result: StudyResult) -> str:
     """Return whether the intervals of f cover what notes say, as text."""
     known = np.isfinite(result["interval_low"])[np.isfinite(result["coefficient"])]
     if not known.any():
-        return "no point has an interval of f that would cover what they say"
+        return "no point has an interval of f that would cover what the notes say"
     where = "" if known.all() else ", where it is known,"
-    return f"the interval of f{where} covers what they say, or nothing is to be done"
+    return f"the interval of f{where} covers what the notes say, or nothing is to be done about them"
 
 
 def warning_lines(result: StudyResult) -> list[str]:

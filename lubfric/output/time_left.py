@@ -28,7 +28,7 @@ class TimeLeft:
     that solve them. What points take is the processor time of one process, whose ratio to the time that passes is
     measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates,
     with one more that takes what is estimated, corrects the estimates of the others; those that are being solved raise
-    it when they take more, and then need `LEFT_OF_LATE` of what they took.
+    it when they take more, and then need `LEFT_OF_LATE` of what they took, which raises it too.
     """
 
     def __init__(
@@ -94,7 +94,10 @@ class TimeLeft:
         solving = {point: now - begun for point, begun in self._begun.items()}
         ratio = _ratio(self._taken + self._usual, self._estimated + self._usual)
         estimated = self._estimated + sum(self.expected[point] for point in solving)
-        slower = _ratio(self._taken + sum(solving.values()) + self._usual, estimated + self._usual)
+        in_all = [
+            taken * (1.0 + LEFT_OF_LATE) if taken > self.expected[point] else taken for point, taken in solving.items()
+        ]
+        slower = _ratio(self._taken + sum(in_all) + self._usual, estimated + self._usual)
         ratio = max(ratio, slower)
         undone = [
             LEFT_OF_LATE * taken if taken > ratio * self.expected[point] else ratio * self.expected[point] - taken

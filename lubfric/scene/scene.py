@@ -353,7 +353,11 @@ def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tu
     if scene.transient is not None and scene.numerics.heat == "on":
         yield "numerics.heat", "on", "'auto', 'off' (in time the model is isothermal)"
     if scene.transient is not None and scene.lubricant.inlet_length is not None:
-        yield "lubricant.inlet_length", scene.lubricant.inlet_length, "None (in time the model is flooded)"
+        yield (
+            "lubricant.inlet_length",
+            scene.lubricant.inlet_length,
+            "none in a run in time, where its inlet is flooded",
+        )
     limit = scene.lubricant.limit
     offset = scene.lubricant.limiting_stress_offset
     if limit is not None and offset < LEAST_OFFSET:
@@ -366,4 +370,4 @@ def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tu
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"
     lubricant = scene.lubricant
     if lubricant.shear_modulus is not None:
-        yield "lubricant.shear_modulus", lubricant.shear_modulus, "None (no elastic shear at small slip)"
+        yield "lubricant.shear_modulus", lubricant.shear_modulus, "none, as it has no elastic shear at small slip"

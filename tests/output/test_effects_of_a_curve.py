@@ -2,12 +2,15 @@
 
 import math
 import re
+from types import SimpleNamespace
 
+import numpy as np
 from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.models.shared import effect_in_words
 from lubfric.output import main
+from lubfric.output.curve_answer import largest_error_of_points
 
 MOTION = "[motion]\nentrainment_speed = 1e-4\nspeeds = [1e-4, 0.03, 0.3]\n"
 SCENE = BODIES_AND_OIL.replace("= 0.09", "= [0.08, 0.1]") + MOTION
@@ -38,3 +41,12 @@ def test_a_report_at_boundary_lubrication_lists_the_effects_of_other_points(tmp_
     for what, (_, speed, words) in largest.items():
         (row,) = [row for row in rows if what[1:20] in row]
         assert f"|U = {speed:.4g} m/s|" in row and words.partition(": f ")[2].partition(";")[0] in row
+
+
+def test_the_error_of_the_points_of_a_curve_is_that_of_its_longest_side():
+    """0.024 is 49 % below 0.047, and 0.063 is 34 % above."""
+    intervals = np.array([[0.047, 0.047], [0.024, 0.063]])
+    curve = SimpleNamespace(
+        points=(), coefficient=np.array([0.05, 0.047]), uncertainty=SimpleNamespace(interval=intervals)
+    )
+    assert largest_error_of_points(curve) == " (up to 49 % at 95 %)"

@@ -61,7 +61,7 @@ def test_more_than_was_estimated_is_extrapolated_from_what_was_taken():
     machine = Machine()
     left = machine.left({"a": 10.0, "b": 10.0})
     machine.run(19.0)
-    of_b = 10.0 * (19.0 + 10.0) / (10.0 + 10.0)
+    of_b = 10.0 * ((1.0 + LEFT_OF_LATE) * 19.0 + 10.0) / (10.0 + 10.0)
     assert left.seconds == pytest.approx(LEFT_OF_LATE * 19.0 + of_b)
     machine.run(2.0)
     assert left.seconds > LEFT_OF_LATE * 19.0 + of_b and "left" in left.in_words(3.0)

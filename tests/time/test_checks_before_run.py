@@ -47,6 +47,7 @@ def test_info_advises_no_model_that_the_scene_is_refused_with():
     )
     with pytest.raises(lubfric.InputError, match="inlet_length"):
         lubfric.prepare(MOVING.with_(numerics={"model": "deterministic"}))
+    assert "None" not in starved
     advice = "set numerics.model = 'deterministic' to model this motion"
     assert advice not in starved and "no model includes this motion with lubricant.inlet_length" in starved
     assert advice in flooded

@@ -342,7 +342,7 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
     history = read_table(tmp_path / "a" / "out" / "history.csv")
     assert np.flatnonzero(np.isnan(history["coefficient"])).tolist() == [0, 10, 20]
     assert "The run is not periodic" in page and "the mean contains the start" in page
-    assert "100 % of the time: t = 0.01 of 0.01 s" in said and "without the model-form" not in said + page
+    assert "100 % of the duration: t = 0.01 of 0.01 s" in said and "without the model-form" not in said + page
 
 
 def test_an_interval_without_model_form_error_says_so_and_why(tmp_path, capsys):
