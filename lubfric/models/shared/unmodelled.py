@@ -83,7 +83,7 @@ MIXED = (0.02, 0.98)
 # Peak Hertz pressure [Pa] from which compressibility is an effect of its own: with it the film is thinner and f
 # larger. A choice between 0.5 GPa, where f of 6 contacts solved with both densities fell by 0 to 5 %, and 0.9 GPa, from
 # which f of 6 contacts rose by 0 to 9 %.
-HIGH_PRESSURE = 0.7e9
+COMPRESSING_PRESSURE = 0.7e9
 
 # Part of f by asperities below which the film makes it. A choice: it selects a sentence.
 LEAST_ASPERITY_PART = 0.1
@@ -450,7 +450,7 @@ def _of_film(
             )
         )
     peak = peak_hertz_pressure(scene)
-    if lubricant.density_law == "constant" and peak > HIGH_PRESSURE:
+    if lubricant.density_law == "constant" and peak > COMPRESSING_PRESSURE:
         density = float(density_ratio(replace(lubricant, density_law="dowson-higginson"), peak)[0])
         effects.append(
             UnmodelledEffect(
