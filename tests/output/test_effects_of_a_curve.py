@@ -9,8 +9,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.models.shared import effect_in_words
-from lubfric.output import main
-from lubfric.output.curve_answer import largest_error_of_points
+from lubfric.output import curve_answer, main
 
 MOTION = "[motion]\nentrainment_speed = 1e-4\nspeeds = [1e-4, 0.03, 0.3]\n"
 SCENE = BODIES_AND_OIL.replace("= 0.09", "= [0.08, 0.1]") + MOTION
@@ -49,4 +48,4 @@ def test_the_error_of_the_points_of_a_curve_is_that_of_its_longest_side():
     curve = SimpleNamespace(
         points=(), coefficient=np.array([0.05, 0.047]), uncertainty=SimpleNamespace(interval=intervals)
     )
-    assert largest_error_of_points(curve) == " (up to 49 % at 95 %)"
+    assert curve_answer.largest_error_of_points(curve) == " (up to 49 % at 95 %)"
