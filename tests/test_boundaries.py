@@ -16,11 +16,17 @@ HEAVY = ("skfem", "pyamg", "meshio", "verification")
 
 
 @cache
+def tree_of(path: Path) -> ast.Module:
+    """Return the syntax tree of a file."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def imported(path: Path) -> set[str]:
     """Names of all a file imports, at any depth, also by importlib.import_module("...")."""
     package = path.relative_to(ROOT).parts[:-1]
     result = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Import):
             result |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
@@ -114,7 +120,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
     names = set()
     for file in sorted((ROOT / "lubfric" / "estimate").rglob("*.py")):
         typed = set()
-        tree = ast.parse(file.read_text(encoding="utf-8"))
+        tree = tree_of(file)
         for node in ast.walk(tree):
             if isinstance(node, ast.If) and getattr(node.test, "id", "") == "TYPE_CHECKING":
                 typed |= {*ast.walk(node)}
@@ -141,7 +147,7 @@ def questions(package: str) -> list[tuple[str, set[str]]]:
     """Return the file and the names of each question of ``package`` of what kind an object is."""
     asked = []
     for file in sorted((ROOT / package).rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        for node in ast.walk(tree_of(file)):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
                 named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
                 asked.append((file.name, named))
@@ -153,7 +159,7 @@ def test_no_solver_asks_a_contact_of_what_kind_it_is():
     kinds = {
         node.name
         for f in (ROOT / "lubfric" / "contact").rglob("*.py")
-        for node in ast.walk(ast.parse(f.read_text()))
+        for node in tree_of(f).body
         if isinstance(node, ast.ClassDef) and any(getattr(base, "id", "") == "RoughContact" for base in node.bases)
     }
     requested = [file for file, named in questions("lubfric") if named & kinds]

@@ -35,7 +35,14 @@ def test_ci_runs_the_readme_test_command():
 
 
 # Two seconds and more: their calls are those of other tests.
-LONG = ("plot_05_traction", "plot_07_study", "plot_08_stop_and_start", "plot_09_fit", "plot_14_bearing_torque")
+LONG = (
+    "plot_04_oil",
+    "plot_05_traction",
+    "plot_07_study",
+    "plot_08_stop_and_start",
+    "plot_09_fit",
+    "plot_14_bearing_torque",
+)
 LONG += ("plot_14_six_contacts", "plot_15_gear_flank", "plot_16_paper_band")
 
 

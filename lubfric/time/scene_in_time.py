@@ -2,17 +2,20 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
 from ..models.shared import film_lubricant, inlet_at
 from ..oil import Lubricant
 from ..scene import Bodies, Constant, History, Motion, Scene, Transient, sampled_times
 
-Section = TypeVar("Section", Bodies, Lubricant, Motion)
+Section = TypeVar("Section", Lubricant, Motion)
 
 # [-] slide-roll ratio beyond which a moment counts as one of sliding alone; a choice: any number far above 2 does.
 MOST_SLIDE_ROLL_RATIO = 1e6
+
+# Bodies of moments that are remembered, of runs in which load and radius are constant; a choice.
+REMEMBERED_BODIES = 100
 
 # [-] the speed of a body is U plus this part of u2 - u1; by definition.
 SLIDING_PART = {"surface": -0.5, "counterface": 0.5}
@@ -36,14 +39,12 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
     oil = scene.lubricant
     motion = scene.motion
     speed = now("speed", motion.entrainment_speed)
-    sliding = sliding_at(scene, time, side)
-    bodies = with_values(
+    sliding = now("sliding", motion.slide_roll_ratio * speed)
+    bodies = bodies_with(
         bodies,
         load=now("load", bodies.load),
         radius=now("radius", bodies.radius),
-        hardness=None,
-        boundary_friction_coefficient=bodies.boundary_friction(sliding, oil.temperature),
-        boundary_friction_table=None,
+        boundary_friction=bodies.boundary_friction(sliding, oil.temperature),
     )
     oil = with_values(oil, viscosity=now("viscosity", oil.viscosity))
     ratio = 0.0
@@ -53,6 +54,19 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
         ratio = sliding / speed
     motion = with_values(motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
     return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
+
+
+@lru_cache(maxsize=REMEMBERED_BODIES)
+def bodies_with(bodies: Bodies, *, load: float, radius: float, boundary_friction: float) -> Bodies:
+    """Return ``bodies`` with the values of a moment, without hardness and without a table of f_b."""
+    return replace(
+        bodies,
+        load=load,
+        radius=radius,
+        hardness=None,
+        boundary_friction_coefficient=boundary_friction,
+        boundary_friction_table=None,
+    )
 
 
 def with_values(section: Section, **values: Any) -> Section:
@@ -70,8 +84,9 @@ def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
 
 def surface_speed(scene: Scene, body: str, time: float) -> float:
     """Return the speed [m/s] of the ``body`` with that section ("surface", "counterface"), just before ``time`` [s]."""
-    speed = value_at(scene, "speed", scene.motion.entrainment_speed, time, "before")
-    return speed + SLIDING_PART[body] * sliding_at(scene, time)
+    speed = value_at(scene, "speed", scene.motion.entrainment_speed, time)
+    sliding = value_at(scene, "sliding", scene.motion.slide_roll_ratio * speed, time)
+    return speed + SLIDING_PART[body] * sliding
 
 
 def value_at(scene: Scene, name: str, constant: float, time: float, side: str = "before") -> float:

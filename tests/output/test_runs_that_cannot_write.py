@@ -61,21 +61,18 @@ def without_solving(monkeypatch):
     monkeypatch.setattr("lubfric.time.march.advance", broken)
 
 
-@pytest.mark.parametrize(
-    "name, missing", {"_table": "history.csv", "npz_bytes": "fields.npz", "plot_history": "history.png"}.items()
-)
-def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, request):
+def test_each_writer_of_a_run_in_time_may_fail(whole, tmp_path, capsys, monkeypatch, draws):
     """The same command then writes what is missing, and solves no step again."""
-    if name == "plot_history":
-        request.getfixturevalue("draws")(missing)
+    draws("history.png")
     scene_file, table = whole["run"]
     out = tmp_path / "out"
-    with monkeypatch.context() as patched:
-        patched.setattr(run_history, name, broken)
-        code, said = run(capsys, "run", scene_file, out)
-    assert code == 2 and "broken on purpose" in said and "Traceback" not in said
-    assert not (out / missing).exists() and (out / "result.json").exists()
-    without_solving(monkeypatch)
+    for name, missing in (("_table", "history.csv"), ("npz_bytes", "fields.npz"), ("plot_history", "history.png")):
+        with monkeypatch.context() as patched:
+            patched.setattr(run_history, name, broken)
+            code, said = run(capsys, "run", scene_file, out)
+        assert code == 2 and "broken on purpose" in said and "Traceback" not in said
+        assert not (out / missing).exists() and (out / "result.json").exists()
+        without_solving(monkeypatch)
     code, said = run(capsys, "run", scene_file, out)
     assert code == 0 and (out / missing).exists() and (out / "history.csv").read_text() == table
 
