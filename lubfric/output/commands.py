@@ -239,7 +239,7 @@ def run_begun(
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     checksums = map_checksums(scene)  # now: the files may change while the run goes on
-    estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places)
+    estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places, measures=True)
     for row in (
         *estimate.sections["surface"],
         *(f"estimate: {text}" for text in (estimate.cost, *estimate.refusals) if text),

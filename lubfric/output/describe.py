@@ -175,8 +175,7 @@ def described_scene(
     scene: Scene, speeds: Sequence[float] | str = (), ratios: Sequence[float] = (), *, measures: bool = False
 ) -> tuple[str, SceneEstimate]:
     """Return the text of `describe_scene`, and what it states; of a traction curve at the slide-roll ``ratios``.
-    ``measures``: where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved,
-    and the processor time follows from them."""
+    ``measures``: as of `estimate_scene`."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
@@ -184,8 +183,7 @@ def described_scene(
         surface = sample.stated_map()
         check_map(scene, surface, sample.maps_before_extension[0])
     work = WorkOfPoints(scene, sample, surface)
-    measured = _measured_times(work, speeds) if measures and not len(ratios) else {}
-    estimate = estimate_scene(scene, sample, surface, speeds, ratios, measured=measured, work=work)
+    estimate = estimate_scene(scene, sample, surface, speeds, ratios, measures=measures, work=work)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
@@ -217,13 +215,15 @@ def estimate_scene(
     speeds: Sequence[float] | str = (),
     ratios: Sequence[float] = (),
     *,
-    measured: Mapping[str, MeasuredTime] | None = None,
+    measures: bool = False,
     work: WorkOfPoints | None = None,
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
-    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measured``: by
-    the name of a model, what its first steps say of its time; ``work``: the estimates of its points that are known."""
+    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measures``:
+    where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved, and the
+    processor time follows from them; ``work``: the estimates of its points that are known."""
     work = work or WorkOfPoints(scene, sample, surface)
+    measured = _measured_times(work, speeds) if measures and not len(ratios) else NOT_MEASURED
     scene_speed = scene.motion.entrainment_speed
     speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
     changing = []
@@ -232,11 +232,11 @@ def estimate_scene(
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         scene_speed = max(speeds)
-    model, seconds = _model(work, speeds, ratios, measured or {})
+    model, seconds = _model(work, speeds, ratios, measured)
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved and not len(ratios):
         beside += work.at(speeds[index_of_nearest(speeds, scene_speed, are_speeds=True)]).fine_fields_seconds
-    within = _how_well_known(work, speeds, ratios, measured or {})
+    within = _how_well_known(work, speeds, ratios, measured)
     more = f"{in_words(beside)} for start, pictures and files of 'lubfric run'"
     cost = f"about {in_words(seconds)} of processor time for {over} ({within}), and {more}" if seconds else ""
     run = None
@@ -268,7 +268,7 @@ def estimate_scene(
         cost=cost,
         seconds=seconds,
         command_seconds=seconds + beside,
-        table=_speed_table(work, speeds, measured or {}),
+        table=_speed_table(work, speeds, measured),
         refusals=refusals,
         severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
@@ -280,7 +280,8 @@ def estimate_scene(
 def _how_well_known(
     work: WorkOfPoints, speeds: list[float], ratios: Sequence[float], measured: Mapping[str, MeasuredTime]
 ) -> str:
-    """Return how well the processor time is known, as text; arguments as of `estimate_scene`."""
+    """Return how well the processor time is known, as text; ``measured``: as of `WorkOfPoints.at`, the others as of
+    `estimate_scene`."""
     if not measured and not len(ratios) and _slow_points(work, speeds):
         return f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
     within = WITHIN_WORDS

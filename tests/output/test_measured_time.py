@@ -120,3 +120,23 @@ def test_info_makes_the_surface_and_the_estimate_of_each_speed_once(needle, monk
     described_scene(scene, measures=True)
     assert made == [1] and measured == [scene]
     assert sorted(estimated) == [0.05, 0.5, 2.0]
+
+
+def test_a_run_states_the_time_that_info_states(needle, monkeypatch, tmp_path, capsys):
+    """One function gives both; nothing is solved here."""
+    (slow,) = [type(model) for model in models_up_to("auto") if model.has_slow_strips]
+    measured = MeasuredTime(over_expected=0.4, steps=10, seconds=1.0)
+    monkeypatch.setattr(slow, "measure_time", lambda self, prepared, speed: measured)
+    for model in models_up_to("auto"):
+        monkeypatch.setattr(type(model), "solve", refuse)
+    speeds = ["--speeds", "0.05, 0.5"]
+    assert main(["info", str(needle), *speeds]) == 0
+    in_info = " ".join(capsys.readouterr().out.split()).partition("cost: ")[2].partition(" for start")[0]
+    assert main(["run", str(needle), *speeds, "--out", str(tmp_path / "out"), "--workers", "1"]) != 0
+    in_run = " ".join(capsys.readouterr().err.split()).partition("estimate: ")[2].partition(" for start")[0]
+    assert "measured on 10 steps" in in_info and in_run == in_info
+
+
+def refuse(*_args, **_named):
+    """Solve nothing."""
+    raise lubfric.ConvergenceError("not solved")
