@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from ..models import AUTO, MeasuredTime, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
-from ..models.shared import ExpectedViolations, Violation
+from ..models.shared import ExpectedViolations, Violation, violations_by_inlet_of_moment
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -124,7 +124,7 @@ def expected_violations(
     """Return the limits that will be exceeded at ``speeds`` [m/s] (`Model.expected_violations`).
 
     They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those
-    that the model that is expected to answer has in addition. ``sample`` and ``surface``: as of
+    that the model that is expected to answer has in addition, and a starved inlet. ``sample`` and ``surface``: as of
     `estimated_work_of_point`; ``work``: the estimates that are known.
     """
     first = models_that_may_answer(scene.numerics.model)[0]
@@ -139,7 +139,8 @@ def expected_violations(
     for name, (model, its_speeds) in speeds_of.items():
         if name != first.name:
             more += [pair for pair in model.expected_violations(scene, its_speeds) if pair[1].assumption not in known]
-    return (*expected, *more)
+    starved = ((speed, each) for speed in speeds for each in violations_by_inlet_of_moment(scene, speed))
+    return (*expected, *more, *starved)
 
 
 def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:

@@ -217,9 +217,11 @@ def test_a_starved_inlet_is_reported_where_the_asperities_carry_most():
     """The film carries little there, and is thicker than that of the whole load would be."""
     small = {"shape": (96, 48), "spacing": 1.1e-6}
     scene = paper_scene(contact=small, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"})
-    point = lubfric.friction(scene.with_(lubricant={"inlet_length": 60e-6}), 0.03)
+    point_scene = scene.with_(lubricant={"inlet_length": 60e-6}, motion={"entrainment_speed": 0.03})
+    point = lubfric.friction(point_scene)
     (stated,) = (entry for entry in point.validity if "flooded inlet" in entry.what)
     assert point.contact_load > point.film_load and stated.value < 0.8
+    assert stated.what in " ".join(describe_scene(point_scene).split())
 
 
 @pytest.mark.parametrize("length", [1e-3, 3e-3, 0.1])

@@ -324,8 +324,8 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
 
 
 def violations_by_inlet_of_moment(scene: Scene, speed: float) -> Iterator[Violation]:
-    """Yield the violations by a starved inlet at one moment of a run in time, whose ``scene`` has the values of the
-    moment: `violations_by_inlet` of the flow by closed forms in steady motion at ``speed`` [m/s]."""
+    """Yield the violations by a starved inlet by closed forms, of steady motion or one moment of a run in time, whose
+    ``scene`` has the values of the moment: `violations_by_inlet` of the flow at ``speed`` [m/s]."""
     if speed != 0 and scene.lubricant.inlet_length is not None:
         line = scene.line_contact(abs(speed))
         yield from violations_by_inlet(scene, line, line.starved_film, math.inf)
