@@ -32,7 +32,6 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         f"over {span}" if mean.in_motion == 1 else f"while the surfaces {verb} ({100 * mean.in_motion:.3g} % of {span})"
     )
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
-    film = plain_number(float(np.nanmin(result.min_film)), "m")
     at_floor = f": {GAP_OF_TOUCHING}" if is_gap_of_touching(float(np.nanmin(result.min_film))) else ""
     level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
     mean_text = with_interval(mean.coefficient, *mean.interval, level)
@@ -56,21 +55,25 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
             f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in "
             f"{worded(duration, 's')}."
         )
-    sentences.append(
-        f"The smallest film thickness is {film}{at_floor}."
-        if run_model_of(scene).solves_rough_film
-        else f"The solved film is thinnest {_moment_of_least_film(result)}: {film}."
-    )
-    with_ratio = np.isfinite(result.lambda_ratio) & rolls(result.columns)
+    with_ratio = _have_lambda_ratio(result)
     ratio = result.lambda_ratio[with_ratio]
     if ratio.size:
         sq = plain_number(float(np.median(result.full_load_film[with_ratio] / ratio)), "m")
+        thinnest = thinnest_full_load_film(result)
+        full_load = plain_number(float(result.full_load_film[thinnest]), "m")
         sentences.append(
+            f"The full-load film is thinnest at t = {_moment(result, thinnest)}: {full_load}, a lambda ratio of "
+            f"{number_or_dash(float(result.lambda_ratio[thinnest]))}. "
             "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over a Sq of "
             f"{sq}) lies "
             f"between {number_or_dash(float(ratio.min()))} and "
             f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )
+    sentences.append(
+        f"The smallest film thickness is {_least_film(result)}{at_floor}."
+        if run_model_of(scene).solves_rough_film
+        else _thinnest_solved_film(result)
+    )
     solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
     if solved.size:
         sentences.append(
@@ -97,8 +100,7 @@ def _without_lambda_ratio(result: TransientResult) -> str:
 def _largest_force(result: TransientResult) -> str:
     """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a
     sentence."""
-    force = np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)
-    index = int(np.nanargmax(force))
+    index = largest_force(result)
     load = float(result.load[index])
     (low, high) = (load * float(end) for end in result.uncertainty.interval[index])
     largest = with_interval(load * float(result.coefficient[index]), low, high, unit="N")
@@ -108,20 +110,33 @@ def _largest_force(result: TransientResult) -> str:
 def _largest_power_loss(result: TransientResult) -> str:
     """Return the largest power loss of a run, with its interval where that is known, and its time, as text."""
     columns = result.columns
-    index = int(np.nanargmax(result.power_loss))
+    index = largest_power_loss(result)
     (low, high) = (float(columns[f"power_loss_{end}"][index]) for end in ("low", "high"))
     largest = with_interval(float(result.power_loss[index]), low, high, unit="W")
     return f"the largest {largest} at t = {_moment(result, index)}"
 
 
-def _moment_of_least_film(result: TransientResult) -> str:
-    """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then."""
-    index = int(np.nanargmin(result.min_film))
+def _thinnest_solved_film(result: TransientResult) -> str:
+    """Return when the film of a run by load sharing is thinnest, and which part of the load it carries then, in a
+    sentence."""
+    index = thinnest_film(result)
+    head = f"The solved film is thinnest at t = {_moment(result, index)}: {_least_film(result)}"
     film = 1.0 - float(result.contact_load[index] / result.load[index])
     if film <= 0.0:
-        return f"at t = {_moment(result, index)}, where asperities carry all of the load"
-    others = " and asperities carry the rest" if film < 1.0 else ""
-    return f"at t = {_moment(result, index)}, where it carries {percent_or_less(film, 3)} of the load{others}"
+        return f"{head}; asperities carry all of the load there."
+    others = ", and asperities carry the rest" if film < 1.0 else ""
+    return f"{head}; it carries {percent_or_less(film, 3)} of the load there{others}."
+
+
+def _least_film(result: TransientResult) -> str:
+    """Return the smallest solved film of a run as text."""
+    return plain_number(float(np.nanmin(result.min_film)), "m")
+
+
+def _have_lambda_ratio(result: TransientResult) -> np.ndarray:
+    """Return at which outputs a run has a lambda ratio, (nt,)."""
+    has_ratio: np.ndarray = np.isfinite(result.lambda_ratio) & rolls(result.columns)
+    return has_ratio
 
 
 def history_notes(scene: Scene, result: TransientResult) -> list[str]:
@@ -154,3 +169,34 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
 def largest_friction(result: TransientResult) -> int:
     """Return the index of the output in motion with the largest friction coefficient, without its sign."""
     return int(np.nanargmax(np.where(in_motion(result.columns), np.abs(result.coefficient), -1.0)))
+
+
+def largest_force(result: TransientResult) -> int:
+    """Return the index of the output in motion with the largest friction force, without its sign."""
+    return int(np.nanargmax(np.where(in_motion(result.columns), np.abs(result.friction_force), -1.0)))
+
+
+def largest_power_loss(result: TransientResult) -> int:
+    """Return the index of the output with the largest power loss, which is known at some."""
+    return int(np.nanargmax(result.power_loss))
+
+
+def thinnest_film(result: TransientResult) -> int:
+    """Return the index of the output with the thinnest solved film."""
+    return int(np.nanargmin(result.min_film))
+
+
+def thinnest_full_load_film(result: TransientResult) -> int:
+    """Return the index of the output with the thinnest full-load film, of those that have a lambda ratio, of which
+    there are some."""
+    return int(np.nanargmin(np.where(_have_lambda_ratio(result), result.full_load_film, np.inf)))
+
+
+def named_outputs(result: TransientResult) -> set[int]:
+    """Return the indices of the outputs that `history_answer` names."""
+    named = {largest_friction(result), largest_force(result), thinnest_film(result)}
+    if np.isfinite(result.power_loss).any():
+        named.add(largest_power_loss(result))
+    if _have_lambda_ratio(result).any():
+        named.add(thinnest_full_load_film(result))
+    return named

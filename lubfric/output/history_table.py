@@ -7,7 +7,7 @@ import numpy as np
 from ..quantities import COLUMNS, counted
 from ..time import TransientResult, in_motion, rolls
 from ..units import beside_interval, converted, interval_in_words, unit_of_largest
-from .history_answer import largest_friction
+from .history_answer import named_outputs
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, column_heading, number_cells, number_or_dash, table
 
 # Columns of the table of a run in time: before f, or after it.
@@ -17,6 +17,7 @@ OF_OUTPUT = {
     "entrainment_speed": "before",
     "sliding_speed": "before",
     "load": "before",
+    "friction_force": "after",
     "power_loss": "after",
     "full_load_film": "after",
     "lambda_ratio": "after",
@@ -35,22 +36,21 @@ TABLE_ROUNDING = 1e-8
 
 
 def history_table(result: TransientResult) -> str:
-    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those with the
-    largest f and power."""
+    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those that its
+    answer names."""
     count = result.time.size
     if count < 2:
         return ""
     c = result.columns
-    chosen = {*evenly_by_change(c, min(HISTORY_ROWS, count))}
-    chosen |= {largest_friction(result)}
-    if np.isfinite(c["power_loss"]).any():
-        chosen |= {int(np.nanargmax(c["power_loss"]))}
-    rows_at = sorted(chosen)
+    rows_at = sorted({*evenly_by_change(c, min(HISTORY_ROWS, count)), *named_outputs(result)})
     moving = in_motion(c)
     entrains = rolls(c)
     units = {name: unit_of_largest(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
-    shown |= {name: np.where(moving, shown[name], 0.0) for name in ("entrainment_speed", "sliding_speed", "power_loss")}
+    shown |= {
+        name: np.where(moving, shown[name], 0.0)
+        for name in ("entrainment_speed", "sliding_speed", "friction_force", "power_loss")
+    }
     shown |= {name: np.where(entrains, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
     without_angle = not np.isfinite(c["angle_of_rotation"]).any()
     omitted = {"angle_of_rotation"} if without_angle else set()
@@ -78,8 +78,8 @@ def history_table(result: TransientResult) -> str:
         others = [number_or_dash(_rounded(shown[name], index)) for name in before if name != "time"]
         rows.append(number_cells([time, *others, f, interval, *numbers, ratio]))
     about = (
-        f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with the largest f "
-        "and the largest power loss;"
+        f"{len(rows)} of {counted(count, 'outputs')}, chosen by the change of speed, load and f, with those that "
+        "the answer names;"
     )
     films = (
         " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the "

@@ -14,8 +14,7 @@ from scipy.optimize import brentq
 import lubfric
 from lubfric._base import read_table
 from lubfric.models.load_sharing import MomentResponse
-from lubfric.output import describe_scene, main
-from lubfric.output.history_answer import history_answer
+from lubfric.output import describe_scene, history_answer, main
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.time import PARTS_NOT_IN_TIME
 
@@ -125,14 +124,16 @@ def test_moments_of_rolling_do_not_count_in_the_mean_of_f_but_in_that_of_the_pow
 def test_the_time_of_a_mean_is_that_of_the_outputs(held):
     later = replace(held, columns=held.columns | {"time": held.time + 0.06})
     for run, words in ((held, "over 3 ms is "), (later, "over the time from 60 ms to 63 ms is ")):
-        assert history_answer(RUN, run, complete=True)[0].startswith(f"The mean friction coefficient {words}")
+        assert history_answer.history_answer(RUN, run, complete=True)[0].startswith(
+            f"The mean friction coefficient {words}"
+        )
 
 
 def test_the_largest_f_and_the_lambda_ratios_of_a_run_are_those_of_its_motion(held):
     """At a reversal a frequency of nine digits leaves some 1e-8 of the speed."""
     slow = {"entrainment_speed": 1e-8, "sliding_speed": 1e-8, "lambda_ratio": 1e-8, "coefficient": 10.0}
     columns = {name: held.columns[name] * np.array([1.0, factor, 1.0]) for name, factor in slow.items()}
-    text = " ".join(history_answer(RUN, replace(held, columns=held.columns | columns), complete=True))
+    text = " ".join(history_answer.history_answer(RUN, replace(held, columns=held.columns | columns), complete=True))
     pattern = r"largest f is (\S+) .*lies between (\S+) and (\S+); 1 output without entrainment has none\. "
     largest, low, high = re.search(pattern, text).groups()
     assert float(largest) == pytest.approx(held.coefficient.max(), rel=0.01)
@@ -143,13 +144,18 @@ def test_the_thinnest_film_of_a_run_is_stated_with_its_time_and_its_part_of_the_
     """A film that carries little is thick where asperities keep the surfaces apart."""
     film = held.min_film * np.array([1.0, 0.5, 1.0])
     for carried, words in (
-        (0.012, "it carries 1.2 % of the load and asperities carry the rest: "),
-        (1.0, "it carries 100 % of the load: "),
-        (0.0, "asperities carry all of the load: "),
+        (0.012, "it carries 1.2 % of the load there, and asperities carry the rest."),
+        (1.0, "it carries 100 % of the load there."),
+        (0.0, "asperities carry all of the load there."),
     ):
-        columns = held.columns | {"min_film": film, "contact_load": (1 - carried) * held.load}
-        text = " ".join(history_answer(RUN, replace(held, columns=columns), complete=True))
-        assert f"The solved film is thinnest at t = 1 ms, where {words}" in text
+        thin = {name: held.columns[name] / np.array([1.0, 1.0, 3.0]) for name in ("full_load_film", "lambda_ratio")}
+        columns = held.columns | {"min_film": film, "contact_load": (1 - carried) * held.load} | thin
+        text = " ".join(history_answer.history_answer(RUN, replace(held, columns=columns), complete=True))
+        assert re.search(rf"The solved film is thinnest at t = 1 ms: [\d.]+ .m; {words}", text)
+        full_load = re.search(r"The full-load film is thinnest at t = 3 ms: [\d.]+ .m, a lambda ratio of (\S+)\.", text)
+        assert float(full_load[1]) == pytest.approx(held.lambda_ratio[2] / 3, rel=0.01)
+        assert text.index(full_load[0]) < text.index("The solved film")
+        assert {*history_answer.named_outputs(replace(held, columns=columns))} >= {1, 2}
 
 
 def test_friction_gives_no_power():
@@ -328,7 +334,7 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
     assert "It is negative at" in page
     assert re.search(r"the largest [\d.]+ \S*W \([\d.]+ to [\d.]+ \S*W at 95 %\) at t = [\d.]+ m?s\.", said)
     assert re.search(
-        r"The solved film is thinnest at t = [\d.]+ \S+, where (it carries [\d.]+ %|asperities carry all) of the load.*: [\d.]+ .m\.",
+        r"The solved film is thinnest at t = [\d.]+ \S+: [\d.]+ .m; (it carries [\d.]+ %|asperities carry all) of the load there",
         said,
     )
     assert re.findall(r"at rest +- +(\S+)", page) == ["0"] * 3  # power loss at the start, the reversal and the end

@@ -16,6 +16,7 @@ REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
 LARGEST_PART = "its largest part is {}"
 IN_INTERVAL = "the interval of f, where it is known, includes it"
 READ_INTERVAL = "use f with its interval"
+UNUSUAL_PARTS = "the parts that are not usual for this model make {} alone"
 OTHER_PARTS = "{}; without that part the model-form error is {}"
 
 
@@ -75,14 +76,18 @@ def violations_by_model_error(
     if recommendation:
         others = error_of_parts([part for part in parts if part is not largest])
         recommendation = OTHER_PARTS.format(recommendation, percent(others)) if others else recommendation
+    consequence = LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL
+    is_note = len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance
+    if largest is not None and largest.is_usual and not is_note:
+        consequence += f"; {UNUSUAL_PARTS.format(percent(error_of_parts(unusual)))}"
     yield Violation(
         assumption=Assumption.MODEL_FORM_ERROR,
         what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
         value=unit * error,
         limit=unit * tolerance,
         unit="%" if is_relative else "",
-        consequence=LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL,
+        consequence=consequence,
         recommendation=recommendation or (READ_INTERVAL if has_interval else ""),
-        is_note=len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance,
+        is_note=is_note,
         effect=error,
     )
