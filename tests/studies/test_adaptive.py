@@ -115,8 +115,8 @@ def test_lift_off_is_stated_where_the_solved_speeds_around_it_are_near(ratio, se
         assert low < result.lift_off_range[0] <= 0.05 <= result.lift_off_range[1] < ratio * low
 
 
-def test_f_between_points_that_a_spline_overshoots_is_not_known():
-    """The film's traction falls by 40 decades from one point to the next, and rises again: no overflow is hidden."""
+def test_far_points_of_a_film_that_almost_vanishes_give_f_between_theirs():
+    """The film's traction falls by 40 decades from one point to the next, and rises again."""
     samples = Samples(
         speed=np.array([1e-3, 1.0, 1.001, 1e3]),
         share=np.array([0.9, 0.6, 0.5, 0.4]),
@@ -128,10 +128,12 @@ def test_f_between_points_that_a_spline_overshoots_is_not_known():
         numerical=np.zeros(4),
     )
     result = Interpolant(samples, None)
+    at = np.geomspace(1e-3, 1e3, 50)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        error = result.error(np.geomspace(1e-3, 1e3, 50))
-    assert np.isinf(error).any() and not np.isnan(error).any()
+        error = result.error(at)
+    f = result.at(at)
+    assert np.isfinite(error).all() and f.min() >= 0.04 and f.max() <= 0.1
 
 
 @pytest.mark.parametrize("lift_off", [1e-6, 100.0])
@@ -168,7 +170,7 @@ def auto():
 
 
 def test_an_adaptive_curve_is_that_of_many_solves(auto):
-    assert auto.report.converged and auto.speed.size <= 15 and auto.report.residual <= 0.01
+    assert auto.report.converged and auto.speed.size <= 16 and auto.report.residual <= 0.01
     assert auto.speed[0] == pytest.approx(SCENE.motion.speeds[0]) and auto.speed[-1] == pytest.approx(1.0)
     speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
     direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)

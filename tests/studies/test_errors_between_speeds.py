@@ -11,7 +11,7 @@ from test_adaptive import Made
 
 from lubfric.output.curve_answer import minimum_in_words
 from lubfric.studies.choose import between
-from lubfric.studies.interpolate import Interpolant, knee_of, through
+from lubfric.studies.interpolate import Interpolant, Samples, knee_of, through
 
 NAN = float("nan")
 
@@ -23,6 +23,54 @@ BOUNDARY_FORCE = np.array([0.4786633, 0.3581346, 0.1542331, 0.0342780, 0.0114261
 SEPARATION = np.array([1.732430, 1.931774, 2.427365, 3.017657, 3.496392, 4.507295, 39.727581])
 CLEARANCE = np.array([NAN, NAN, NAN, NAN, NAN, NAN, 35.929654])
 SOLVED = np.array([0, 1, 2, 5, 6])
+
+# Two densely solved curves of the model "paper": rollers of 10 mm under 2 kN with generated roughness, Sq 250 and 100 nm,
+# slide-roll ratio 2. Columns: speed [m/s], f, asperity load ratio, part of f from the contacts, film over Sq, clearance
+# over Sq, steepness, numerical error.
+DENSE = {
+    "250 nm": [
+        (0.01, 0.119318, 0.994211, 0.119305, 0.59298, NAN, 1.262, 0.00014),
+        (0.013422, 0.119119, 0.992515, 0.119102, 0.61091, NAN, 1.231, 0.00051),
+        (0.018016, 0.118726, 0.989189, 0.118703, 0.59022, NAN, 1.1868, 8.9e-05),
+        (0.024182, 0.118262, 0.985245, 0.118229, 0.59213, NAN, 1.1713, 0.00017),
+        (0.032459, 0.117618, 0.97976, 0.117571, 0.59509, NAN, 1.173, 0.00033),
+        (0.043568, 0.116741, 0.972294, 0.116675, 0.60245, NAN, 1.1941, 0.00024),
+        (0.058480, 0.115475, 0.96148, 0.115378, 0.60973, NAN, 1.2367, 0.00038),
+        (0.078495, 0.113655, 0.945874, 0.113505, 0.62057, NAN, 1.3061, 0.00032),
+        (0.105361, 0.110971, 0.922685, 0.110722, 0.63594, NAN, 1.3828, 0.00033),
+        (0.141421, 0.106933, 0.887176, 0.106461, 0.65827, NAN, 1.5622, 0.00047),
+        (0.189823, 0.100906, 0.831582, 0.0997898, 0.69234, NAN, 1.7202, 0.00071),
+        (0.254791, 0.0928803, 0.745321, 0.0894385, 0.74632, NAN, 1.9444, 0.0013),
+        (0.341995, 0.0845389, 0.623766, 0.0748519, 0.83266, NAN, 2.1036, 0.00093),
+        (0.459044, 0.0759452, 0.475427, 0.0570512, 0.96033, NAN, 2.2082, 0.001),
+        (0.616155, 0.0678083, 0.3265, 0.0391799, 1.1334, NAN, 2.3019, 0.0014),
+        (0.827037, 0.0614829, 0.203224, 0.0243868, 1.3523, NAN, 2.5011, 0.0012),
+        (1.110095, 0.0572905, 0.11267, 0.0135204, 1.6185, NAN, 2.7841, 0.0033),
+        (1.49003, 0.0550162, 0.0560873, 0.00673048, 1.9416, NAN, 3.2895, 0.0017),
+        (2, 0.0541604, 0.0244895, 0.00293874, 2.3327, NAN, 4.06, 0.003),
+    ],
+    "100 nm": [
+        (0.003, 0.116103, 0.967393, 0.116087, 0.25634, NAN, 1.1095, 0.00029),
+        (0.004403, 0.114174, 0.951232, 0.114148, 0.26223, NAN, 1.1534, 0.00045),
+        (0.006463, 0.111253, 0.926689, 0.111203, 0.27136, NAN, 1.186, 0.00078),
+        (0.009486, 0.106886, 0.88981, 0.106777, 0.28617, NAN, 1.2223, 0.00099),
+        (0.013924, 0.100434, 0.834541, 0.100145, 0.30909, NAN, 1.2449, 0.0017),
+        (0.020438, 0.0917774, 0.756775, 0.090813, 0.34566, NAN, 1.2503, 0.0015),
+        (0.03, 0.0820057, 0.654543, 0.0785452, 0.40128, NAN, 1.2418, 0.0016),
+        (0.044033, 0.0729194, 0.534331, 0.0641197, 0.48308, NAN, 1.2856, 0.0018),
+        (0.064633, 0.0648789, 0.406227, 0.0487472, 0.59857, NAN, 1.3654, 0.0017),
+        (0.094868, 0.0584063, 0.283043, 0.0339652, 0.75745, NAN, 1.482, 0.0015),
+        (0.139247, 0.0538492, 0.176471, 0.0211765, 0.97204, NAN, 1.7225, 0.0013),
+        (0.204387, 0.0511803, 0.09466, 0.0113592, 1.2576, NAN, 2.1212, 0.0015),
+        (0.3, 0.0500207, 0.0401217, 0.00481461, 1.6332, NAN, 2.7972, 0.0015),
+        (0.440339, 0.0499334, 0.0129157, 0.00154989, 2.1234, NAN, 3.8331, 0.0016),
+        (0.646330, 0.0504007, 0.0025823, 0.000309876, 2.7562, NAN, 6.0035, 0.0023),
+        (0.948683, 0.0511417, 0.000240612, 2.88734e-05, 3.5626, NAN, 11.832, 0.0019),
+        (1.392477, 0.0520014, 5.87603e-06, 7.05124e-07, 4.5818, NAN, 40.257, 0.0021),
+        (2.043876, 0.0529707, 0, 0, 5.8682, 0.91951, NAN, 0.0028),
+        (3, 0.054081, 0, 0, 7.4563, 2.1743, NAN, 0.0014),
+    ],
+}
 
 
 def paper_curve(indices):
@@ -161,3 +209,75 @@ def test_the_curve_goes_through_points_whose_film_carries_hardly_any_load():
     np.testing.assert_allclose(curve.at(numbers["speed"]), numbers["coefficient"], rtol=1e-12)
     between_points = curve.at(np.geomspace(0.1, 0.266, 9))
     assert np.all((between_points >= 0.11817 * (1 - 2e-3)) & (between_points <= 0.1184 * (1 + 2e-3)))
+
+
+def dense_curve(name, indices):
+    speed, f, share, boundary, film, clearance, steepness, numerical = np.array(DENSE[name])[indices].T
+    numbers = {
+        "speed": speed,
+        "coefficient": f,
+        "contact_load": share,
+        "film_load": 1.0 - share,
+        "boundary_force": boundary,
+        "film_to_roughness_ratio": film,
+        "clearance": clearance,
+        "steepness": steepness,
+        "numerical_error": numerical,
+    }
+    return through(numbers)
+
+
+def test_f_falls_between_far_points_where_it_falls_at_all_of_them():
+    """A spline through the logarithm of the traction coefficient has a bump 15 % above f between the fastest two points,
+    where 13.5 % is stated."""
+    speed, f = np.array(DENSE["250 nm"])[:, :2].T
+    curve = dense_curve("250 nm", [0, 4, 8, 11, 14, 18])
+    at = np.geomspace(0.01, 2.0, 300)
+    assert np.all(np.diff(curve.at(at)) <= 1e-4 * f.min())
+    np.testing.assert_allclose(curve.at(speed), f, rtol=0.025)
+
+
+@pytest.mark.parametrize("name", DENSE)
+def test_the_error_of_sparse_curves_holds_at_the_points_of_a_dense_one(name):
+    draw = np.random.default_rng(1)
+    speed, f, *_, numerical = np.array(DENSE[name]).T
+    held = []
+    for count in (3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 9):
+        chosen = np.append(draw.choice(np.arange(1, speed.size - 1), count - 2, replace=False), [0, speed.size - 1])
+        curve = dense_curve(name, np.sort(chosen))
+        away = np.setdiff1d(np.arange(speed.size), chosen)
+        value = curve.at(speed[away])
+        error = np.hypot(curve.error(speed[away]), np.sqrt(2) * numerical[away])
+        held.append(np.abs(value - f[away]) <= error * value)
+    assert np.mean(np.concatenate(held)) >= 0.95
+
+
+def test_a_minimum_between_far_points_that_the_curve_does_not_have_is_not_stated():
+    """f falls at all three points, and through them has a minimum between the faster two."""
+    curve = dense_curve("250 nm", [4, 12, 18])
+    least = curve.minimum()
+    assert not least.is_inside and not least.is_bracketed and least.speeds[1] == pytest.approx(2.0)
+    assert least.speeds[0] < 1.0 and least.interval[0] < 0.0541604 < least.interval[1]
+
+
+def test_the_parts_of_f_have_no_extremum_that_their_points_have_not():
+    """A traction coefficient that rises as a step in closed form, and a part of the contacts that falls."""
+    draw = np.random.default_rng(0)
+    at = np.geomspace(1e-3, 1.0, 300)
+    for _ in range(10):
+        speed = np.sort(np.append([1e-3, 1.0], 10 ** draw.uniform(-3, 0, 4)))
+        share = 1.0 / (1.0 + (speed / 0.1) ** 1.5)
+        traction = 0.002 + 0.05 / (1.0 + (speed / 0.2) ** -2.5)
+        empty = np.full(6, NAN)
+        samples = Samples(
+            speed=speed,
+            share=share,
+            boundary=0.12 * share,
+            film=traction * (1.0 - share),
+            thickness=np.ones(6),
+            clearance=empty,
+            steepness=empty,
+            numerical=np.zeros(6),
+        )
+        curve = Interpolant(samples, None)
+        assert np.all(np.diff(curve.traction(at)) >= -1e-12) and np.all(np.diff(curve.boundary(at)) <= 1e-12)
