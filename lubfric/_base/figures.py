@@ -305,9 +305,10 @@ def _excess(legend: Any, axes: Axes) -> float:
     return float(legend.get_window_extent().width / (KEY_ROOM * axes.get_position().width * figure.bbox.width))
 
 
-def fit_labels(figure: Figure, of: Sequence[Axes] | None = None) -> None:
+def fit_labels(figure: Figure, of: Sequence[Axes] | None = None) -> bool:
     """Break the labels of the axes of ``figure``, or ``of`` some of them, into lines that are no longer than the axes
-    that they belong to, or than there is room about these where nothing else is beside them."""
+    that they belong to, or than there is room about these where nothing else is beside them. Return whether the figure
+    is laid out with them."""
     for _ in range(FIT_ROUNDS):
         figure.draw_without_rendering()
         whole = figure.bbox
@@ -320,13 +321,13 @@ def fit_labels(figure: Figure, of: Sequence[Axes] | None = None) -> None:
             is_changed |= _break(axes.xaxis.label, axes.xaxis.label.get_window_extent().width / room)
             is_changed |= _break(axes.yaxis.label, axes.yaxis.label.get_window_extent().height / box.height)
         if not is_changed:
-            return
+            return True
+    return False
 
 
 def heighten(figure: Figure, least: float) -> None:
-    """Make ``figure`` so high that none of its axes is lower than ``least`` [inch] where long labels take its
-    height."""
-    figure.draw_without_rendering()
+    """Make a ``figure`` that is laid out so high that none of its axes is lower than ``least`` [inch] where long labels
+    take its height."""
     shown = [axes for axes in figure.axes if axes.get_visible() and axes.get_subplotspec() is not None]
     lowest = min(axes.get_window_extent().height for axes in shown) / figure.dpi
     rows = max(axes.get_subplotspec().get_gridspec().nrows for axes in shown)  # type: ignore[union-attr]

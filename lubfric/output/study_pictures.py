@@ -80,7 +80,8 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
         figures.key_above(axes)
     figures.head(figure, title)
     options.thin(figure)
-    figures.fit_labels(figure)
+    if not figures.fit_labels(figure):
+        figure.draw_without_rendering()
     figures.heighten(figure, LEAST_PANEL)
     figure.savefig(path)
 

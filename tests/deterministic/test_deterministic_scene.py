@@ -94,7 +94,8 @@ def test_a_newtonian_film_beyond_its_range_is_reported():
     )
 
 
-def test_the_command_writes_its_fields(tmp_path, drawn):
+def test_the_command_writes_its_fields(tmp_path, draws):
+    draws("contact.png")
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.with_(contact={"shape": (32, 32), "spacing": 90e-6 / 32}).to_toml())
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--speeds", "0.01,0.003", "--fields", "0.003"]) == 0

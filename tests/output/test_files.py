@@ -211,7 +211,7 @@ SMALL = {"shape": (96, 96), "spacing": 0.9e-6}
 COLUMNS = "--speed", "U", "--coefficient", "mu"
 
 
-@pytest.mark.parametrize("name", ODD[1:4:2] + [pytest.param(name, marks=pytest.mark.slow) for name in ODD[::2]])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name != ODD[1])) for name in ODD])
 def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, draws):
     """Title, legend of a measured curve and file names: as they are, whatever matplotlib takes for a formula."""
     from matplotlib.figure import Figure

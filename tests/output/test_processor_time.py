@@ -16,7 +16,7 @@ def seconds_of(who):
     return usage.ru_utime + usage.ru_stime
 
 
-@pytest.mark.parametrize("name", ["run", "study"])
+@pytest.mark.parametrize("name", ["run", pytest.param("study", marks=pytest.mark.slow)])
 def test_the_processor_time_contains_that_of_the_worker_processes(tmp_path, capsys, name):
     scene = lubfric.load_scene("paper").with_(numerics={"model": "paper"}, motion={"speeds": (0.02, 0.05)})
     (tmp_path / "scene.toml").write_text(scene.to_toml())

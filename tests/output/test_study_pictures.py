@@ -3,6 +3,7 @@ is smaller than 6 pt, and lines tell apart what is varied."""
 
 import itertools
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -120,6 +121,12 @@ PRINTED = 300  # points per inch, in which letters have the widths of print
 COLUMN_HEIGHT = 7.0  # inch: a picture of this height leaves room for its caption on a page
 
 
+@cache
+def made(name):
+    """The study of `STUDIES`, which no picture changes."""
+    return made_study(*STUDIES[name])
+
+
 def made_study(vary, speeds):
     """A study with made-up numbers: nothing is solved."""
     along = {"points": speeds} if isinstance(speeds, dict) else {"speeds": speeds}
@@ -142,7 +149,7 @@ def texts_of(figure):
     """The texts that a drawn ``figure`` shows, with their boxes [pixel]; two names of tick labels that are on one place
     are one."""
     figure.set_dpi(PRINTED)
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     hidden = {id(text) for axes in figure.axes if not axes.get_visible() for text in axes.findobj(Text)}
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
@@ -184,7 +191,7 @@ def faults(figure):
 )
 def test_texts_of_a_study_are_complete_and_apart(tmp_path, drawn, name, width):
     options = PictureOptions(width=WIDTHS[width])
-    study_pictures.plot_study(tmp_path / "study.png", made_study(*STUDIES[name]), options)
+    study_pictures.plot_study(tmp_path / "study.png", made(name), options)
     (figure,) = drawn
     assert faults(figure) == []
     panels = [axes for axes in figure.axes if axes.get_visible()]

@@ -118,7 +118,7 @@ def test_another_process_moves_no_bit(scene_of):
         for name in ("patch", "auto", "measured"):
             expected = alone(name, scene_of(name), speeds)
             assert swept(lubfric.prepare(scene_of(name)), speeds[::-1], pool) == expected, name
-            assert pool.submit(at, scene_of(name), speeds[0]).result() == expected[speeds[0]], name
+        assert pool.submit(at, scene_of(name), speeds[0]).result() == expected[speeds[0]]
 
 
 @settings(max_examples=3)

@@ -165,6 +165,7 @@ def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, unint
             break
 
 
+@pytest.mark.slow
 def test_killed_traction_curves_lose_and_repeat_nothing(tmp_path):
     """As Stribeck curves: a point that ended is kept, and the rows are those of a run that nobody killed."""
     assert main(["run", written(tmp_path), RATIOS, "--out", str(tmp_path / "whole")]) == 0
