@@ -5,25 +5,29 @@ from dataclasses import replace
 
 from ..models import ModelAnswer
 from ..models.shared import Prepared, largest_of, largest_sliding_friction
+from ..samples import is_measured
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .ranges import changes_by_ranges, with_input_ranges, with_inputs_not_given
 from .uncertainty import Uncertainty, interval
 
+# Names of the interval, by whether the sampling error of f is known: else f has only one without it.
+NAME_OF_INTERVAL = {True: "the interval", False: "the interval without the sampling error"}
+
 AT_MOST = (
-    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress "
-    "of the oil "
+    "{} ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress of the oil "
     "in the thinnest film) and {} by rolling"
 )
 
 # The same in a few words, beside the budget.
-CUT_AT_LIMIT = "the interval ends at the largest f by the limits of the shear stress"
-CUT_AT_ZERO = "the interval begins at the smallest f that resists the sliding"
+CUT_AT_LIMIT = "{} ends at the largest f by the limits of the shear stress"
+CUT_AT_ZERO = "{} begins at the smallest f that resists the sliding"
 
-RESISTS_SLIDING = "the interval begins at {:.3g}: at a smaller f the sliding part would drive the sliding"
+RESISTS_SLIDING = "{} begins at {:.3g}: at a smaller f the sliding part would drive the sliding"
 
 # What narrows the sampling error, by whether the sample has more strips.
 SMALLER_SAMPLING_TOLERANCE = "set a smaller numerics.sampling_tolerance to reduce it"
 LARGER_MAP = "give a larger map to reduce it"
+LARGER_PATCH = "omit numerics.sampling, or give a larger contact.shape, to reduce it"
 
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")
@@ -55,9 +59,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         by_limit=errors.by_limit,
         largest_in_model=largest_of(errors.parts_of_model),
         narrows_numerical=f"{answer.recommendation} to reduce it" if is_above else answer.narrows_numerical,
-        narrows_sampling=LARGER_MAP
-        if prepared.sample.available_strips <= answer.decision.strips
-        else SMALLER_SAMPLING_TOLERANCE,
+        narrows_sampling=_narrows_sampling(prepared, answer),
         notes=errors.notes,
     )
     uncertainty = with_inputs_not_given(of_solve, answer.not_given)
@@ -67,6 +69,13 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     if has_sampling_error:
         return limited
     return replace(limited, interval=(math.nan, math.nan), interval_without_sampling=limited.interval)
+
+
+def _narrows_sampling(prepared: Prepared, answer: ModelAnswer) -> str:
+    """Return what narrows the sampling error, as text."""
+    if prepared.sample.available_strips > answer.decision.strips:
+        return SMALLER_SAMPLING_TOLERANCE
+    return LARGER_MAP if prepared.has_given_map or is_measured(prepared.scene) else LARGER_PATCH
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
@@ -79,11 +88,12 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     if not (high > most or low < -most):
         return uncertainty
     ends = max(low, -most), min(high, most)
+    name = NAME_OF_INTERVAL[math.isfinite(uncertainty.sampling)]
     return replace(
         uncertainty,
         interval=ends,
-        cut=(*uncertainty.cut, CUT_AT_LIMIT),
-        notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}", f"{by_rolling:.2g}")),
+        cut=(*uncertainty.cut, CUT_AT_LIMIT.format(name)),
+        notes=(*uncertainty.notes, AT_MOST.format(name, f"{sliding:.3g}", f"{by_rolling:.2g}")),
     )
 
 
@@ -120,11 +130,12 @@ def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertain
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):
         return uncertainty
+    name = NAME_OF_INTERVAL[math.isfinite(uncertainty.sampling)]
     return replace(
         uncertainty,
         interval=(least, high),
-        cut=(*uncertainty.cut, CUT_AT_ZERO),
-        notes=(*uncertainty.notes, RESISTS_SLIDING.format(least + 0.0)),
+        cut=(*uncertainty.cut, CUT_AT_ZERO.format(name)),
+        notes=(*uncertainty.notes, RESISTS_SLIDING.format(name, least + 0.0)),
     )
 
 

@@ -225,9 +225,12 @@ def estimate_scene(
     work = work or WorkOfPoints(scene, sample, surface)
     measured = _measured_times(work, speeds) if measures and not len(ratios) else NOT_MEASURED
     scene_speed = scene.motion.entrainment_speed
+    is_of_scene = not len(ratios) and not len(speeds)
     speeds = [scene_speed] if len(ratios) else _speeds_of(scene, surface, speeds)
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
+    if is_of_scene and len(speeds) > len(scene.motion.speeds) > 0:
+        over += f", with the entrainment speed of {scene_speed:g} m/s"
     if scene.transient is not None:
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
@@ -408,7 +411,7 @@ def _expected_gaps(scene: Scene, sq: float, speed: float, ratios: Sequence[float
     f = np.array([expected_coefficient(at, sq, speed) for at in scenes])
     gaps = gaps_of(ratios, f, np.full(f.size, math.nan))
     wide = [gap for gap in gaps if gap.change > WIDE_GAP * f.max()]
-    return [f"warning: by closed forms, {gap.text}." for gap in wide]
+    return [f"note: by closed forms, {gap.text}." for gap in wide]
 
 
 def _fastest_moment(scene: Scene) -> Scene:

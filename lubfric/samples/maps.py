@@ -65,7 +65,7 @@ def limiting_map(scene: Scene, surface: Surface, axis: int) -> tuple[str, str]:
 def way_to_longer_line(scene: Scene, surface: Surface) -> str:
     """Return how the ``surface`` of ``scene`` becomes longer across the motion, as text."""
     if not is_measured(scene):
-        return "a longer map along y"
+        return "a contact.shape or a map that is longer along y"
     (name, file) = limiting_map(scene, surface, 1)
     return (
         f"a map of [{name}] that is longer across the motion{_axis_of_file(scene, name, 1)}, in place of "

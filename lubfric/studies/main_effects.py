@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -80,14 +82,14 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     if together.max() > MOST_CORRELATED:
         return {}
     draws = np.random.default_rng(ERROR_SEED).standard_normal((ERROR_DRAWS, y.size))
-    disturbed = y + draws * _independent_errors(columns, known)
+    noise = draws * _independent_errors(columns, known)
     effects = {}
     for key in keys:
         is_number = columns[key].dtype.kind == "f"
         is_fitted = is_number and key in scattered
-        share = _share(x[key], y, is_fitted=is_fitted)
-        drawn = [_share(x[key], each, is_fitted=is_fitted) for each in disturbed]
-        low, high = np.percentile(drawn, ENDS_OF_INTERVAL)
+        explained = partial(_explained, x[key], is_fitted=is_fitted)
+        share = explained(y) / float(y.var())
+        low, high = np.percentile(_drawn_shares(explained, y, noise), ENDS_OF_INTERVAL)
         slope = int(np.sign(np.corrcoef(x[key], y)[0, 1])) if is_number else 0
         effects[key] = MainEffect(share=share, slope=slope, interval=(min(float(low), share), max(float(high), share)))
     return dict(sorted(effects.items(), key=lambda pair: -pair[1].share))
@@ -124,13 +126,27 @@ def _independent_errors(columns: dict[str, np.ndarray], known: np.ndarray) -> np
     return np.hypot(np.hypot(numerical, model) / HALF_WIDTH_OF_NORMAL, sampling)
 
 
-def _share(x: np.ndarray, y: np.ndarray, *, is_fitted: bool) -> float:
-    """Return the share of the variance of ``y`` that ``x`` explains; ``is_fitted``: by a parabola, else by the means at
-    each value."""
+def _drawn_shares(explained: Callable[[np.ndarray], float], y: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Return the shares, (n,), of the variance of ``y`` with each of the n rows of ``noise`` that an input ``explained``.
+
+    Noise adds a variance of its own, of which the input explains a part by chance: without its mean over the rows all
+    shares would be too small.
+    """
+    parts = np.array([explained(y + each) for each in noise]) - np.mean([explained(each) for each in noise])
+    variances = (y + noise).var(axis=1) - np.mean(noise.var(axis=1))
+    if np.isnan(noise).any():
+        return np.full(variances.shape, np.nan)
+    # as much noise as there is variance leaves any share
+    ratios = np.divide(parts, variances, out=np.where(parts > 0.0, 1.0, 0.0), where=variances > 0.0)
+    return np.clip(ratios, 0.0, 1.0)
+
+
+def _explained(x: np.ndarray, y: np.ndarray, *, is_fitted: bool) -> float:
+    """Return the variance of ``y`` that ``x`` explains; ``is_fitted``: by a parabola, else by the means at each value."""
     if not is_fitted:
         (_, place, count) = np.unique(x, return_inverse=True, return_counts=True)
         means = (np.bincount(place, y) / count)[place]
     else:
         middle = (x - x.mean()) / x.std()
         means = np.polyval(np.polyfit(middle, y, 2), middle)
-    return float(means.var() / y.var())
+    return float(means.var())

@@ -48,7 +48,7 @@ class Gap:
         """The gap in a sentence."""
         return (
             f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the solved points do not determine f, "
-            f"which may be up to {self.change:.2g} above the line between them. Solve more ratios between them, such "
+            f"which may be up to {self.change:.1g} above the line between them. Solve more ratios between them, such "
             f"as {', '.join(f'{ratio:.3g}' for ratio in self.ratios)}"
         )
 

@@ -591,3 +591,11 @@ def test_info_states_between_which_ratios_a_traction_curve_will_not_show_f():
     assert gap.low == 0.0 and f"between the slide-roll ratios 0 and {gap.high:g} the solved points do not" in text
     fine = [*gap.ratios, *coarse[1:]]
     assert "between the slide-roll ratios 0" not in described_scene(scene, (), fine)[0]
+
+
+def test_info_names_the_speed_that_a_run_adds_and_notes_gaps_as_a_run_does():
+    """Ratios from 0 in two steps pass over the knee of an Eyring oil."""
+    speeds = HEAVY.with_(motion={"entrainment_speed": 0.3, "speeds": [0.1, 1.0]}, lubricant={"eyring_stress": 5e6})
+    assert "3 speeds, with the entrainment speed of 0.3 m/s" in describe_scene(speeds)
+    text = described_scene(speeds, ratios=[0.0, 0.1, 0.2])[0]
+    assert "note: by closed forms, between the slide-roll ratios 0 and 0.1" in " ".join(text.split())

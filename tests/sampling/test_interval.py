@@ -185,7 +185,10 @@ def test_one_patch_is_too_short_for_an_interval():
         and known.numerical > 0
     )
     cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.08).uncertainty
-    assert "too short along y to estimate the undetected contact; give a longer map along y" in cleared.text
+    assert (
+        "too short along y to estimate the undetected contact; give a contact.shape or a map that is longer along y"
+        in cleared.text
+    )
 
 
 @pytest.mark.parametrize("scene", [PATCH.with_(contact={"model": "summits"}), FLAT], ids=["summits", "flat"])

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scene_text import paper_scene
+from small_study import SCENE
 
 import lubfric
 from lubfric.film import ShearForce
@@ -411,6 +412,14 @@ def test_a_sample_that_ends_asks_for_a_larger_map():
     surface = lubfric.generate_surface((64, 400), 1.8e-6, sq=1e-7, correlation_length=8e-6, seed=2)
     given = lubfric.friction(lubfric.prepare(wide, surface), 0.03).uncertainty
     assert given.narrows_sampling == "give a larger map to reduce it"
+
+
+def test_a_generated_patch_asks_for_its_keys_and_names_the_interval_that_is_known():
+    """A patch of 13 correlation lengths in boundary lubrication: f is near its largest, and has no sampling error."""
+    patch = lubfric.friction(SCENE.with_(lubricant={"limiting_stress_coefficient": "f_b"}), 1e-3).uncertainty
+    assert "numerics.sampling" in patch.narrows_sampling and "contact.shape" in patch.narrows_sampling
+    assert "map" not in patch.narrows_sampling and np.isnan(patch.interval).all()
+    assert patch.cut and all(text.startswith("the interval without the sampling error ends") for text in patch.cut)
 
 
 def test_a_former_name_of_the_recommendation_names_that_of_today():

@@ -152,6 +152,22 @@ def test_shares_have_the_range_that_the_errors_of_f_leave(error, reached):
     assert "with its range" not in "".join(study_answer.answer_lines(wide))
 
 
+def test_the_range_of_a_share_is_on_both_sides_of_it_and_contains_that_without_errors():
+    """Errors add a variance of their own, by which the shares of disturbed points are too small."""
+    vary = {"bodies.load": [1.0, 2.0, 4.0, 8.0], "lubricant.viscosity": [0.1, 0.2, 0.4, 0.8]}
+    result = numbered(vary, lambda scene: scene.bodies.load**-1.0 * scene.lubricant.viscosity**0.5)
+    true = 0.8  # of ln 2 over two steps of 1 and 0.5
+    errors = {"sampling_error": np.full(result.status.shape, 0.3)}
+    held = []
+    for draw in np.random.default_rng(1).standard_normal((20, *result.status.shape)):
+        columns = result.columns | errors | {"coefficient": result["coefficient"] * np.exp(0.3 * draw)}
+        effect = studies.main_effects(replace(result, columns=columns))["bodies.load"]
+        low, high = effect.interval
+        assert low < effect.share < high
+        held.append(low <= true <= high)
+    assert np.mean(held) >= 0.9
+
+
 def test_inputs_that_vary_together_have_no_shares_of_their_own():
     pairs = [(load, load / 10) for load in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)]
     result = numbered({("bodies.load", "lubricant.viscosity"): pairs}, lambda scene: scene.bodies.load)

@@ -548,7 +548,7 @@ def _violations(
             unit="nm",
             consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the "
             "boundary film is not "
-            f"given, and the interval of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
+            f"given, and the model-form error of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
             recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured",
         )
     cut = mean(result.split.capped / result.load for result in results)

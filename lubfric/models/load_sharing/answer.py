@@ -8,6 +8,7 @@ import numpy as np
 
 from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
+from ...samples import is_measured
 from ...scene import Scene, has_moving_roughness
 from ..model_answer import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
@@ -30,7 +31,11 @@ from .limits import limits_exceeded
 from .response import contact_length, point_numbers
 from .scatter import film_stress
 
-SMALLER_TOLERANCE = "set a smaller numerics.tolerance or give a larger map"
+# What narrows the numerical error, by whether the surface is a map, and not generated.
+NARROWS_NUMERICAL = {
+    True: "set a smaller numerics.tolerance or give a larger map",
+    False: "set a smaller numerics.tolerance",
+}
 
 
 def answer_of(balanced: BalancedSample) -> ModelAnswer:
@@ -62,7 +67,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
             *violations_of_sample(balanced),
             *_violations_by_finer_cells(balanced.prepared, balanced.relative_change(balanced.effect.finer_grid_change)),
         ),
-        recommendation=SMALLER_TOLERANCE,
+        recommendation=NARROWS_NUMERICAL[balanced.prepared.has_given_map or is_measured(scene)],
         fields=fields_of(balanced),
         fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
         details=replace(

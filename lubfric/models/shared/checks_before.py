@@ -419,7 +419,7 @@ def violations_by_map(
             limit=least,
             unit="",
             consequence=why,
-            recommendation=f"give {longer or 'a larger map'}",
+            recommendation=f"give {longer or 'a larger contact.shape or map'}",
         )
     for axis, count in zip("xy", cells):
         if count < NOISE:
