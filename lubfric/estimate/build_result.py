@@ -99,6 +99,7 @@ def result_of(
             prepared.sample.maps_before_extension,
             has_given_map=prepared.has_given_map,
             has_sampling_error=math.isfinite(uncertainty.sampling),
+            takes_boundary_film=choice.model.takes_boundary_film,
         ),
         fields=fields,
         compared_fields=compared_fields,

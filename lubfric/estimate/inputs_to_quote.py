@@ -15,17 +15,24 @@ ESTIMATED_BY = ("gold", "so-klaus")
 
 
 def inputs_to_quote(
-    scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False, has_sampling_error: bool = True
+    scene: Scene,
+    maps: Sequence[Surface] = (),
+    *,
+    has_given_map: bool = False,
+    has_sampling_error: bool = True,
+    takes_boundary_film: bool = True,
 ) -> tuple[str, ...]:
     """Return the roughness, the load, the lubricant, the boundary friction and the sliding of ``scene``, each with its
     unit and its range as text, as far as it has them; what changes in time as its range over the run. ``maps``: of its
     rough bodies, before they are extended (`lubfric.samples.Sample.maps_before_extension`); ``has_given_map``: whether
-    maps were given in place of those of the scene; ``has_sampling_error``: whether that of f is known at some point."""
+    maps were given in place of those of the scene; ``has_sampling_error``: whether that of f is known at some point;
+    ``takes_boundary_film``: as of the model (`lubfric.models.Model`)."""
     texts = [*roughness_to_quote(scene, maps, has_given_map=has_given_map)]
     if scene.numerics.sampling == "patch":
         texts.append("one patch of the surface in place of strips")
         texts += [] if has_sampling_error else ["sampling error of f not known"]
-    return (*texts, *dry_contact_to_quote(scene), *lubricated_contact_to_quote(scene))
+    lubricated = lubricated_contact_to_quote(scene, takes_boundary_film=takes_boundary_film)
+    return (*texts, *dry_contact_to_quote(scene), *lubricated)
 
 
 def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
@@ -42,7 +49,7 @@ def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
         yield f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
 
 
-def lubricated_contact_to_quote(scene: Scene) -> Iterator[str]:
+def lubricated_contact_to_quote(scene: Scene, *, takes_boundary_film: bool = True) -> Iterator[str]:
     """Yield the lubricant, the boundary friction and the sliding of ``scene``, as `inputs_to_quote`."""
     bodies = scene.bodies
     histories = scene.transient
@@ -52,7 +59,8 @@ def lubricated_contact_to_quote(scene: Scene) -> Iterator[str]:
         f"{_range(scene, 'bodies.boundary_friction_coefficient')}"
     )
     if bodies.boundary_film is not None:
-        yield f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}"
+        film = f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}"
+        yield film if takes_boundary_film else f"{film}, which limits the interval of f alone"
     if histories is not None:
         turns = (
             ""

@@ -175,6 +175,11 @@ class Model(ABC):
         return False
 
     @property
+    def takes_boundary_film(self) -> bool:
+        """Whether f depends on ``bodies.boundary_film``, by itself or by a calibration; else its interval alone does."""
+        return False
+
+    @property
     def has_slow_strips(self) -> bool:
         """Whether one strip of moving roughness takes so much time that this is estimated, and shown, by itself."""
         return False

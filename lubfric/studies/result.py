@@ -254,7 +254,11 @@ class StudyResult(Renamed, Shown):
         is_alike = all(pair == roughness[0] for pair in roughness)
         maps = prepared.sample.maps_before_extension if is_alike else ()
         is_sampled = bool(np.isfinite(self["sampling_error"]).any())
-        texts = [inputs_to_quote(scene, maps, has_sampling_error=is_sampled) for scene in self.plan.scenes]
+        by_film = any(answers.takes_boundary_film for answers in models)
+        texts = [
+            inputs_to_quote(scene, maps, has_sampling_error=is_sampled, takes_boundary_film=by_film)
+            for scene in self.plan.scenes
+        ]
         inputs = shared_inputs(texts)
         varied = [varied_to_quote(key, values.tolist()) for key, (_, values) in self.coords.items()]
         return cited(names, format, inputs=[*inputs, *varied])

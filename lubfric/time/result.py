@@ -473,6 +473,7 @@ def collect(
             prepared.sample.maps_before_extension,
             has_given_map=prepared.has_given_map,
             has_sampling_error=bool(np.isfinite(columns["sampling_error"]).any()),
+            takes_boundary_film=run_model_of(prepared.scene).model.takes_boundary_film,
         ),
     )
 

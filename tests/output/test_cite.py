@@ -83,6 +83,10 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         f"{nx} x {ny} cells in 1 strip",
     ):
         assert words in stated, words
+    paper = lubfric.friction(scene.with_(numerics={"model": "paper"}), 0.03)
+    thin = lubfric.friction(scene.with_(numerics={"model": "paper"}, bodies={"boundary_film": 5e-9}), 0.03)
+    is_same = paper.coefficient == thin.coefficient
+    assert is_same and "boundary film 15 nm, which limits the interval of f alone" in paper.cite("methods")
     estimated = lubfric.friction(PATCH.with_(lubricant=OIL), 0.03, raise_on_failure=False).cite("methods")
     assert "1/GPa (estimated)" in estimated and "boundary film " not in estimated.partition("The methods")[0]
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")

@@ -77,6 +77,10 @@ class DeterministicModel(Model):
         return True
 
     @property
+    def takes_boundary_film(self) -> bool:
+        return True
+
+    @property
     def includes_motion(self) -> bool:
         return True
 

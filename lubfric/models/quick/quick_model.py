@@ -282,6 +282,10 @@ class QuickModel(Model):
         return "quick"
 
     @property
+    def takes_boundary_film(self) -> bool:
+        return True
+
+    @property
     def includes_motion(self) -> bool:
         return True  # roughness that moves, moves on the long cells as well
 
