@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from ..models import AUTO, MeasuredTime, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
-from ..models.shared import ExpectedViolations, Violation, violations_by_inlet_of_moment
+from ..models.shared import (
+    ExpectedViolations,
+    Violation,
+    expected_typical_heat,
+    violations_by_inlet_of_moment,
+    violations_by_typical_heat,
+)
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -124,7 +130,8 @@ def expected_violations(
     """Return the limits that will be exceeded at ``speeds`` [m/s] (`Model.expected_violations`).
 
     They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those
-    that the model that is expected to answer has in addition, and a starved inlet. ``sample`` and ``surface``: as of
+    that the model that is expected to answer has in addition, a starved inlet, and the heat
+    of the film that a scene omits. ``sample`` and ``surface``: as of
     `estimated_work_of_point`; ``work``: the estimates that are known.
     """
     first = models_that_may_answer(scene.numerics.model)[0]
@@ -140,7 +147,14 @@ def expected_violations(
         if name != first.name:
             more += [pair for pair in model.expected_violations(scene, its_speeds) if pair[1].assumption not in known]
     starved = ((speed, each) for speed in speeds for each in violations_by_inlet_of_moment(scene, speed))
-    return (*expected, *more, *starved)
+    heated = (
+        (speed, each)
+        for speed in speeds
+        for each in violations_by_typical_heat(
+            scene, expected_typical_heat(scene, surface.sq, speed), "it is estimated with closed forms"
+        )
+    )
+    return (*expected, *more, *starved, *heated)
 
 
 def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:

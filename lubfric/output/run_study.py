@@ -21,6 +21,7 @@ from .._base import files, plain, validate
 from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
+from ..models.shared import Assumption
 from ..quantities import KEYS, counted, worded_value
 from ..scene import given_tables
 from ..units import number_and_unit, numbers_of, with_interval, worded
@@ -219,7 +220,9 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
     negative = NEGATIVE if outcome.coefficient < 0 and outcome.speed >= 0 else ""
     unknown = "" if math.isfinite(outcome.uncertainty.interval[0]) else " (95 % interval not known)"
     power = with_interval(outcome.power_loss, *outcome.power_loss_interval, unit="W")
-    return f"f = {f}{negative}{unknown}, P = {power}"
+    heat = next((each for each in outcome.validity if each.assumption == Assumption.HEAT_INCLUDED), None)
+    without = f"; without the heat of the film, which lowers f by up to {heat.value_in_words} %" if heat else ""
+    return f"f = {f}{negative}{unknown}, P = {power}{without}"
 
 
 def run_fit(arguments: Namespace) -> None:

@@ -59,6 +59,12 @@ class StatusOfPoints:
         the scene names, (n,); NaN at other points."""
         return np.array([_usual_model_error(*pair) for pair in zip(self.scenes, self.violations)])
 
+    @property
+    def omitted_heat(self) -> np.ndarray:
+        """The relative reduction of f by the heat of the film, at most, that neither f nor its interval includes, (n,);
+        NaN at other points."""
+        return np.array([_omitted_heat(each) for each in self.violations])
+
     def _noted_model_errors(self, points: Iterable[int]) -> int:
         """Return at how many ``points`` the model-form error is a note."""
         return sum(
@@ -76,7 +82,8 @@ class StatusOfPoints:
 
     def kind(self, *, failed: bool) -> str:
         """Return the `status_kind`; ``failed``: whether points are not solved."""
-        return status_kind(failed=failed, inexact=self.largely_inexact + len(self.exceeded))
+        heat = omitted_heat_in_words(self.omitted_heat)
+        return status_kind(failed=failed, inexact=self.largely_inexact + len(self.exceeded) + len(heat))
 
     def in_words(self, plural: str, place: Callable[[int], str]) -> str:
         """Return in sentences that all points are solved, and which tolerances they miss. ``plural``: what they are
@@ -89,7 +96,8 @@ class StatusOfPoints:
         unknown = int(np.isnan(self.columns["interval_low"][solved]).sum())
         orders = orders_of_magnitude(self.columns["numerical_error"].tolist())
         usual = usual_errors_in_words(self.usual_model_errors)
-        return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place), *usual))
+        heat = omitted_heat_in_words(self.omitted_heat)
+        return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place), *usual, *heat))
 
 
 def _usual_model_error(scene: Scene, violations: Iterable[Violation]) -> float:
@@ -100,6 +108,26 @@ def _usual_model_error(scene: Scene, violations: Iterable[Violation]) -> float:
     of_model = (each for each in violations if each.assumption == Assumption.MODEL_FORM_ERROR)
     # near 0 its unit is that of f, and no relative error counts
     return next((each.effect for each in of_model if each.is_note and each.unit == "%"), np.nan)
+
+
+def _omitted_heat(violations: Iterable[Violation]) -> float:
+    """Return one of `StatusOfPoints.omitted_heat`, of a point with these ``violations``."""
+    return next((each.effect for each in violations if each.assumption == Assumption.HEAT_INCLUDED), np.nan)
+
+
+def omitted_heat_in_words(changes: np.ndarray) -> list[str]:
+    """Return the `StatusOfPoints.omitted_heat` in a sentence; none where all are NaN."""
+    omitted = changes[np.isfinite(changes)]
+    if not omitted.size:
+        return []
+    where = "" if omitted.size == changes.size else f"at {omitted.size} of {changes.size} points "
+    worst = f" (at point {int(np.nanargmax(changes)) + 1})" if omitted.size > 1 else ""
+    return [
+        sentence(
+            f"{where}f and its interval are without the heat of the film, which lowers f by up to "
+            f"{percent(float(omitted.max()))}{worst}"
+        )
+    ]
 
 
 def usual_errors_in_words(errors: np.ndarray) -> list[str]:

@@ -21,6 +21,7 @@ from ..studies import (
 )
 from ..units import converted, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
+from .status import omitted_heat_in_words, status_of_study
 from .study_points import effects_at, error_in_words, parts_of_error
 
 # Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms
@@ -31,6 +32,10 @@ IN_PURE_ROLLING = (
     "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling "
     "resistance of both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, "
     "cancels"
+)
+# What to do where the heat of the film is omitted.
+GIVE_TEMPERATURE = (
+    "Give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil), to include it."
 )
 # What the mean power loss of a path of contact is.
 OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
@@ -68,7 +73,8 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
-    return [*rows, *effects, *_rolling_line(result), *_alpha_line(result), *_budget_line(result)]
+    heat = [f"{text} {GIVE_TEMPERATURE}" for text in omitted_heat_in_words(status_of_study(result).omitted_heat)]
+    return [*rows, *effects, *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
 
 
 def _main_effects_line(result: StudyResult) -> list[str]:

@@ -15,6 +15,7 @@ from lubfric.models.shared import (
     Assumption,
     Heat,
     Violation,
+    expected_typical_heat,
     gathered,
     gathered_in_table,
     gathered_on_curve,
@@ -362,6 +363,10 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )
     assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""
+    (solved,) = (each.effect for each in fast.validity if each.assumption == Assumption.HEAT_INCLUDED)
+    assert 0.8 < expected_typical_heat(scene, scene.surface.sq, 1.0) / solved < 1.25
+    before = lubfric.output.describe_scene(scene, [1.0]).partition("estimate with closed forms")[0]
+    assert "reduction of f by the heat of the film is" in " ".join(before.split())
 
 
 def test_the_first_line_says_which_inputs_the_interval_contains_and_that_an_estimate_is_not_among_them():

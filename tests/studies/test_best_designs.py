@@ -10,6 +10,7 @@ import pytest
 from small_study import SCENE, violations_at
 
 import lubfric
+from lubfric.models.shared import violations_by_typical_heat
 from lubfric.output import best_designs, study_answer, study_pictures, study_report
 from lubfric.studies import StudyResult, design_keys, operating_keys
 from lubfric.units import with_interval
@@ -152,6 +153,23 @@ def test_the_report_has_a_row_for_each_condition_with_what_it_cannot_be_distingu
         numbers = re.findall(r"no\. (\d+)", rivals)
         assert [int(number) for number in numbers] == [*one.rival_rows[:3], *sorted(one.rival_rows[3:])][: len(numbers)]
         assert (rivals == "none") == (not one.rivals)
+
+
+def test_a_study_marks_the_points_without_the_heat_of_the_film():
+    """In its answer and its status, with how many they are and the largest change."""
+    result = made(F, WIDTH)
+    violations = result.violations.copy()
+    for number, change in ((3, 0.2), (7, 0.6)):
+        violations.flat[number] = tuple(violations_by_typical_heat(SCENE, change))
+    without = replace(result, violations=violations)
+    words = (
+        f"At 2 of {F.size} points f and its interval are without the heat of the film, which lowers f by up to 60 % "
+        "(at point 8)."
+    )
+    for study, is_marked in ((without, True), (result, False)):
+        lines = study_answer.answer_lines(study)
+        page = study_report.study_page(study, {}, lines).decode()
+        assert any(words in line for line in lines) == is_marked == (words in page.partition("<table")[0])
 
 
 @pytest.mark.parametrize("film", [1e-9, 1.01e-9, 3.4e-9, 6e-9])

@@ -79,7 +79,7 @@ def test_a_speed_in_turns_per_minute_without_its_unit_is_questioned(tmp_path):
 
 def test_table_picture_and_report_of_a_run_state_the_angle(tmp_path, capsys):
     load = f'load = {{ kind = "table", angles = {list(ANGLES)}, values = {list(LOADS)} }}'
-    scene(tmp_path, f'rotational_speed = "1500 1/min"\nduration = "360 deg"\noutputs = 4\n{load}')
+    scene(tmp_path, f'rotational_speed = "1500 rpm"\nduration = "360 deg"\noutputs = 4\n{load}')
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
     with open(tmp_path / "o" / "history.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

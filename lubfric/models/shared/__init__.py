@@ -136,6 +136,7 @@ from .unmodelled import (
     expected_alpha_in_words,
     expected_coefficient,
     expected_effects,
+    expected_typical_heat,
     stated_way_to_motion,
     unmodelled_effects,
 )

@@ -482,9 +482,10 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
         )
 
 
-def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
+def violations_by_typical_heat(scene: Scene, change: float, estimated: str = "") -> Iterator[Violation]:
     """Yield the violations by heat that is omitted because the lubricant does not say how its viscosity falls with the
-    temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
+    temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`);
+    ``estimated``: how it is known before the solve, as text."""
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
         yield Violation(
@@ -497,7 +498,7 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
             "temperature; the "
             f"number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose viscosity falls "
             "by "
-            f"{100 * coefficient:.2g} % per K",
+            f"{100 * coefficient:.2g} % per K{estimated and f'; {estimated}'}",
             recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); "
             "set numerics.heat = "
             "'off' to neglect heat without this warning",

@@ -37,6 +37,9 @@ NEGLIGIBLE_HEAT = 1e-9
 # Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
 TYPICAL = (343.15, 0.035)
 
+# Nodes across the Hertz strip of an even film. A choice, as of the estimate of its shear.
+NODES_OF_EVEN_FILM = 201
+
 # Part of what heat does to f that counts as its error [-]. Not measured: published factors of the inlet differ by as
 # much (`InletHeat.other`).
 PART_IN_ERROR = 0.5
@@ -349,11 +352,42 @@ def typical_heat(
     meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf
     if known or scene.numerics.heat == "off" or scene.motion.slide_roll_ratio == 0 or meaningless:
         return 0.0
+    nodes = _nodes(scene, film, contact_state, contact_load, force)
+    return nodes.change_by(isothermal_heat(_like_typical(lubricant), *nodes.of_film).stress)
+
+
+def typical_heat_of_even_film(scene: Scene, speed: float, thickness: float) -> float:
+    """Return how much of the friction [-] of a film of even ``thickness`` [m], which carries the total load at
+    U = ``speed`` [m/s], `typical_heat` would take away, at most; 0 where that is none.
+
+    Its pressure is an ellipse as wide as the Hertz strip, or as the film of a rigid cylinder, sqrt(2 R h), if that is
+    wider.
+    """
+    lubricant = scene.lubricant
+    sliding = abs(scene.motion.slide_roll_ratio * speed)
+    known = lubricant.heats or lubricant.temperature_coefficient == 0
+    if known or scene.numerics.heat == "off" or sliding == 0:
+        return 0.0
+    bodies = scene.bodies
+    load_per_width = bodies.load / bodies.width
+    along = np.linspace(-1.0, 1.0, NODES_OF_EVEN_FILM)
+    half_width = max(bodies.half_width, math.sqrt(2.0 * bodies.radius * thickness))
+    x = along * half_width
+    pressure = 2.0 * load_per_width / (math.pi * half_width) * np.sqrt(1.0 - along**2)
+    around = surroundings(scene, speed, np.ones(x.size), np.zeros(x.size))
+    film = np.full(x.size, thickness)
+    with np.errstate(over="ignore"):
+        cold = np.abs(shear_stress(lubricant, pressure, sliding / thickness))
+        heated = np.abs(isothermal_heat(_like_typical(lubricant), x, pressure, film, around).stress)
+        lost = float(np.trapezoid(cold - heated, x)) / load_per_width
+    return lost if math.isfinite(lost) else 0.0
+
+
+def _like_typical(lubricant: Lubricant) -> Lubricant:
+    """Return ``lubricant`` with the temperature and the temperature coefficient of a typical oil where it has none."""
     temperature = lubricant.temperature or TYPICAL[0]
     coefficient = lubricant.temperature_coefficient or TYPICAL[1]
-    like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
-    nodes = _nodes(scene, film, contact_state, contact_load, force)
-    return nodes.change_by(isothermal_heat(like, *nodes.of_film).stress)
+    return replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
 
 
 def peclet_at(scene: Scene, speed: float) -> float:

@@ -23,7 +23,7 @@ from ...scene import Scene, has_generated_roughness, has_moving_roughness, why_g
 from ...units import worded
 from .checks import peak_hertz_pressure
 from .checks_before import STRIP_NODES
-from .heat import TYPICAL
+from .heat import TYPICAL, typical_heat_of_even_film
 from .violation import numbers_in_words
 from .wording import percent
 
@@ -643,6 +643,21 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
     rolling = 6 * scene.lubricant.viscosity * abs(speed) * (1 / gap - max(thickness, least) / gap**2)
     mu = float(np.trapezoid(np.minimum(stress, carried_stress(pressure)) + rolling, x)) / line.load_per_width
     return of_rubbing * share, of_rubbing * share + mu * (1 - share)
+
+
+def expected_typical_heat(scene: Scene, sq: float, speed: float) -> float:
+    """Return the largest part of f that the heat of the film would take away at ``speed`` [m/s] if the viscosity fell
+    with the temperature as that of a typical oil, before f is known; ``sq`` [m]: of the surface. 0 where the lubricant
+    says how it falls."""
+    if speed == 0:
+        return 0.0
+    lost = typical_heat_of_even_film(scene, speed, scene.line_contact(abs(speed)).expected_film)
+    if not lost > 0:
+        return 0.0
+    of_boundary, f = _parts(scene, sq, speed)
+    f_b = scene.bodies.boundary_friction_coefficient
+    wet = 1.0 - (of_boundary / f_b if f_b else 0.0)
+    return min(wet * lost / f, 1.0)
 
 
 def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
