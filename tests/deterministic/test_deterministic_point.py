@@ -130,7 +130,7 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
     surface = lubfric.generate_surface((42, 16), 60e-6 / 16, sq=25e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(3e5, 1e-3, oil, 1e-2)
     result = solve_point(lay_out(surface, line, sliding=2e-3, boundary_friction=0.1, hardness=6e9))
-    assert "from the dry contact" in result.report.notes[0] and result.report.iterations <= 18
+    assert "from the dry contact" in result.report.notes[0] and result.report.iterations <= 25
     assert result.touching.any() and result.share_given_off < 0.1
 
 
@@ -173,7 +173,7 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
     least = start.least_step
     near, none = (solve_point(fine, start=start.state, least=part) for part in (least, 2.0))
     assert "from a neighbouring state" in near.report.notes[0] and "from the dry contact" in none.report.notes[0]
-    assert 0 < least < 1 and near.report.iterations < 0.7 * none.report.iterations
+    assert 0 < least < 1 and near.report.iterations <= min(10, none.report.iterations - 1)
     assert near.coefficient == pytest.approx(none.coefficient, rel=1e-6)
 
 

@@ -179,6 +179,12 @@ class System:
             approach=approach,
         )
 
+    def equations(self, at: Iterate) -> np.ndarray:
+        """Return by how much the state of ``at`` misses the equations of this system (n + 1,): mass of fluid cells,
+        gap of touching ones, load."""
+        rows = np.where(self.touching, (at.gap - at.problem.floor) / self.film, at.residual * self.row)
+        return np.append(rows.ravel(), at.load_error / at.problem.load)
+
     def apply(self, unknowns: FloatArray) -> FloatArray:
         """Return the Jacobian times scaled unknowns."""
         cells = unknowns[:-1]
@@ -197,14 +203,12 @@ class System:
     def solve(self, accuracy: float = GMRES_RESIDUAL) -> tuple[Change, int]:
         """Return the Newton step, and the iterations of GMRES.
 
-        The right side is minus the equations at the state: mass of fluid cells, gap of touching ones, load. GMRES ends
-        at a residual of ``accuracy`` times the right side. In a step in time, and at rest where the pressure is high
+        The right side is minus the `equations` at the state. GMRES ends at a residual of ``accuracy`` times the right side. In a step in time, and at rest where the pressure is high
         (`HIGH_PRESSURE`), each row counts by the diagonal of its sparse part in that norm: a cell at high pressure has
         coefficients that are larger by the viscosity.
         """
         at = self.at
-        rows = np.where(self.touching, (at.gap - at.problem.floor) / self.film, at.residual * self.row)
-        right = -np.append(rows.ravel(), at.load_error / at.problem.load)
+        right = -self.equations(at)
         weights = self.row_weights
         if at.history is None and not has_high_pressure(at.problem):
             unknowns, iterations = gmres(self.apply, self.precondition, right, accuracy)

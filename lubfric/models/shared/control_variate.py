@@ -1,5 +1,6 @@
 """What a cheaper model knows of the strips of a line: the control of a more expensive one."""
 
+import math
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -7,6 +8,9 @@ import numpy as np
 
 from ..._base import FloatArray
 from .statistics import StandardError
+
+# Force over the load that differences of forces may leave where there is none [-]. A choice, above rounding.
+FORCE_ROUNDING = 1e-12
 
 T = TypeVar("T", float, np.ndarray)
 
@@ -56,7 +60,7 @@ def with_divided_sliding(numbers: dict[str, float], before: dict[str, float], lo
     changed = with_forces_of_film(numbers, load)
     sliding = changed["boundary_force"] + changed["couette_force"]
     sliding_before = before["boundary_force"] + before["couette_force"]
-    if changed["couette_force"] * sliding_before > 0:
+    if sliding_before and changed["couette_force"] * math.copysign(1.0, sliding_before) > -FORCE_ROUNDING * load:
         return changed
     growth = sliding / sliding_before if sliding_before else 0.0
     contact_load = growth * before["contact_load"]
