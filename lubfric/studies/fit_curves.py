@@ -16,7 +16,7 @@ from ..models import prepare
 from ..models.shared import Prepared
 from ..scene import BOUNDARY_FRICTION_KEY, Scene
 from .curve import without_rolling
-from .explain import curve_seconds
+from .explain import curve_seconds, traction_seconds
 from .fit_input import SPEED, Measured, values_at
 from .points import at_ratios, key_of, solved
 from .vary import Between
@@ -250,8 +250,8 @@ class FitCurves:
         x = self.measured.x.tolist()
         if self.measured.over == SPEED:
             return seconds + curve_seconds(prepared, x, has_new_map=has_new_map)
-        speed = [prepared.scene.motion.entrainment_speed]
-        return seconds + sum(curve_seconds(model, speed, has_new_map=False) for model in at_ratios(prepared, x))
+        speed = prepared.scene.motion.entrainment_speed
+        return seconds + traction_seconds(at_ratios(prepared, x), speed, has_new_map=has_new_map)
 
 
 def linear_place(scene: Scene, parameters: dict[str, Between]) -> int | None:

@@ -9,6 +9,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric.output import main
+from lubfric.studies import estimated_fit
 
 BOUNDS = {"lubricant.viscosity": (0.1, 0.5)}
 MEASURED = lubfric.Measured(np.array([0.05, 0.5]), np.array([0.05, 0.04]))
@@ -39,3 +40,17 @@ def test_the_console_and_the_report_state_the_same_starts_and_the_same_kind_of_t
     assert re.search(r"time: about \S+ \S+ of processor time", said)
     assert re.search(r"; \d+ s of processor time, (about|the last)", said)
     assert "processor time, all processes together" in page
+
+
+def test_points_of_a_traction_curve_share_one_reference_point():
+    """Twice as many ratios are expected to take less than twice as long."""
+    scene = lubfric.load_scene("paper").with_(
+        motion={"entrainment_speed": 0.03}, numerics={"model": "paper", "sampling_tolerance": 0.2}
+    )
+    f_b = {"bodies.boundary_friction_coefficient": (0.05, 0.15)}
+
+    def expected(ratios):
+        measured = lubfric.Measured(ratios, [0.05] * len(ratios), over="slide_roll_ratio")
+        return estimated_fit(scene, measured, f_b, starts=0)
+
+    assert expected([0.1, 0.2, 0.3, 0.4]) < 1.8 * expected([0.1, 0.2])

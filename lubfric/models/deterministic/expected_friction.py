@@ -32,11 +32,15 @@ LOAD_RATIO_BY_THICKENING = -0.88
 # convention.
 LEAST_COUNTED_THICKENING = 1.0
 
-# Slide-roll ratio times film load ratio (`solved_ends_of_shear`) at which one of the two ends of the range of a flow
-# law is expected to be solved in motion [-]. Fitted by its likelihood to 95 random contacts of
-# ``verification.campaigns.estimates`` up to 1.5 GPa with typical ranges, where 66 of 190 ends were; of the limiting
-# stress 11 of 170, and none is expected.
-HALF_OF_ENDS = 0.47
+# Film load ratio times the shear stress of the film over the critical one, if its oil had the viscosity of the inlet and
+# did not thin (`solved_ends_of_shear`), at which one of the two ends of the range of a flow law is expected to be solved
+# in motion [-]. Fitted with its power by their likelihood to 95 random contacts of
+# ``verification.campaigns.estimates`` up to 1.5 GPa with typical ranges, where 66 of 190 ends were: 0, 16, 25, 25, 61,
+# 84 % in sixths of them, ordered by it. Of the limiting stress 11 of 170 were, and none is expected.
+HALF_OF_ENDS = 0.008
+
+# Power of that in proportion to which the ends that are solved grow over those that are not [-]. Fitted.
+ENDS_BY_STRESS = 1.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,10 +105,16 @@ def solved_ends_of_shear(scene: Scene, sq: float, speed: float, name: str) -> fl
     on moving roughness of ``sq`` [m]: none of a limiting stress; of a flow law those at which its films flow so
     differently that f changes.
 
-    Sliding thins the pressure flow around asperities in proportion to the slide-roll ratio, in the films that carry the
+    Sliding thins the pressure flow around asperities by its stress over the critical one, in the films that carry the
     load.
     """
     if name not in OF_FLOW:
         return 0.0
-    thinned = abs(scene.motion.slide_roll_ratio) * (1.0 - expected_friction(scene, sq, speed).share)
-    return 2.0 * thinned / (thinned + HALF_OF_ENDS)
+    law = scene.lubricant.flow_law
+    assert law is not None  # it has a range
+    (critical, _) = law.critical(0.0)
+    film = scene.line_contact(abs(speed)).moes_film
+    stress = scene.lubricant.viscosity * abs(scene.motion.slide_roll_ratio * speed) / film
+    thinned = (1.0 - expected_friction(scene, sq, speed).share) * stress / critical
+    solved_over_others = (thinned / HALF_OF_ENDS) ** ENDS_BY_STRESS
+    return 2.0 * solved_over_others / (1.0 + solved_over_others)

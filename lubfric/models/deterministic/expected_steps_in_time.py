@@ -12,16 +12,17 @@ from ..shared import peak_hertz_pressure
 from .moving_strip import FAST_ROUGHNESS, SLOW_ROUGHNESS, TIGHT, effort_for
 
 # ln of the work of a step over `work_of_step_in_time`, where all features are 0 [-]. Fitted.
-LOG_WORK = -0.686
+LOG_WORK = -0.802
 
 # Its changes with the features of `StepFacts` [-]. Fitted.
-BY_THICKENING = 0.239
-BY_RIDGES_ALONG = 0.173
-BY_PART_OF_CELL = 1.042
-BY_TIGHT_STEPS = 0.333
+BY_THICKENING = 0.268
+BY_RIDGES_ALONG = 0.124
+BY_PART_OF_CELL = 0.862
+BY_TIGHT_STEPS = 0.434
+BY_APART = 0.723
 
 # These in the order of `StepFacts.features` [-]. By definition.
-COEFFICIENTS = (LOG_WORK, BY_THICKENING, BY_RIDGES_ALONG, BY_PART_OF_CELL, BY_TIGHT_STEPS)
+COEFFICIENTS = (LOG_WORK, BY_THICKENING, BY_RIDGES_ALONG, BY_PART_OF_CELL, BY_TIGHT_STEPS, BY_APART)
 
 # The pressure-viscosity coefficient times Hertz pressure over Λ below which the work of a step changes with it no more
 # [-]: about the least in the contacts of the fit. Measured there.
@@ -42,6 +43,7 @@ class StepFacts:
     lay : correlation length along y over that along x
     moved : cells by which the roughness moves in a step, of two rough bodies in the mean
     tight : 1.0 if steps are `lubfric.models.deterministic.TIGHT`, else 0.0
+    apart : cells by which each of two rough bodies moves in a step more or less than their mean; 0 of one
     """
 
     thickened: float
@@ -49,6 +51,7 @@ class StepFacts:
     lay: float
     moved: float
     tight: float
+    apart: float = 0.0
 
     @classmethod
     def of(cls, scene: Scene, *, sq: float, speed: float, lengths: tuple[float, float], cell: float) -> "StepFacts":
@@ -56,12 +59,14 @@ class StepFacts:
         [m] along x."""
         (lx, ly) = lengths
         line = scene.line_contact(abs(speed))
+        (moved, apart) = _cells_in_a_step(scene)
         return cls(
             thickened=scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene),
             lambda_ratio=line.moes_film / sq,
             lay=ly / lx,
-            moved=_cells_in_a_step(scene),
+            moved=moved,
             tight=float(effort_for(line, sq, cell) is TIGHT),
+            apart=apart,
         )
 
     @property
@@ -69,7 +74,9 @@ class StepFacts:
         """What ln of the work of a step is a linear function of, in the order of `COEFFICIENTS`."""
         thickening = math.log(max(self.thickened / self.lambda_ratio, LEAST_THICKENING))
         on_ridges = max(math.log(THIN_ON_RIDGES / self.lambda_ratio), 0.0) if self.lay < 1.0 else 0.0
-        return 1.0, thickening, on_ridges, abs(self.moved - round(self.moved)), self.tight
+        part_of_cell = abs(self.moved - round(self.moved))
+        loose_apart = self.apart * (1.0 - self.tight)  # no trend where steps are tight
+        return 1.0, thickening, on_ridges, part_of_cell, self.tight, loose_apart
 
     @property
     def factor(self) -> float:
@@ -77,10 +84,13 @@ class StepFacts:
         return math.exp(sum(a * b for a, b in zip(COEFFICIENTS, self.features)))
 
 
-def _cells_in_a_step(scene: Scene) -> float:
-    """Return `StepFacts.moved`: a step is that in which the film passes a cell, or the fastest body (`SLOW_ROUGHNESS`,
-    `FAST_ROUGHNESS`)."""
+def _cells_in_a_step(scene: Scene) -> tuple[float, float]:
+    """Return `StepFacts.moved` and `StepFacts.apart`: a step is that in which the film passes a cell, or the fastest
+    body (`SLOW_ROUGHNESS`, `FAST_ROUGHNESS`). Newton's method starts a step as far downstream as the bodies move in the
+    mean; summits of bodies that move apart meet in that start."""
     ratios = [ratio for _, ratio in moving_bodies(scene)]
     fastest = max(abs(ratio) for ratio in ratios)
+    in_step = 1.0 if SLOW_ROUGHNESS <= fastest <= FAST_ROUGHNESS else 1.0 / fastest
     mean = sum(ratios) / len(ratios)
-    return max(0.0, mean if SLOW_ROUGHNESS <= fastest <= FAST_ROUGHNESS else mean / fastest)
+    apart = max(abs(ratio - mean) for ratio in ratios)
+    return max(0.0, in_step * mean), in_step * apart

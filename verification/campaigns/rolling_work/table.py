@@ -108,12 +108,15 @@ class ContactOnCells:
                 (nx, ny) = strip.result.pressure.shape
                 cell = strip.problem.spacing[0]
                 sq = float(np.sum([body.surface.heights for body in moving.bodies], axis=0).std())
+                step = float(strip.times[0])
+                speeds = [body.speed for body in moving.bodies]
                 facts = StepFacts.of(moving.scene, sq=sq, speed=moving.speed, lengths=moving.lengths, cell=cell)
                 row |= {name: getattr(facts, name) for name in FACTS}
                 row |= {
                     "length": moving.lengths[0] / moving.scene.bodies.half_width,
                     "cell": cell / moving.scene.bodies.half_width,
-                    "moved": cells_in_a_step(moving.bodies, float(strip.times[0]), cell),
+                    "moved": cells_in_a_step(moving.bodies, step, cell),
+                    "apart": 0.5 * (max(speeds) - min(speeds)) * step / cell,
                     "nx": nx,
                     "ny": ny,
                     "rest": strip.rest.work,
