@@ -98,13 +98,22 @@ def test_estimates_that_were_measured_stay_those_of_their_runs(tmp_path):
     assert [row["estimate"] != "77.0" for row in rows(file)] == [True, True]
 
 
+def estimate_and_taken(seed):
+    (row,) = (row for row in rows() if row["seed"] == str(seed))
+    return drawn(seed, int(row["draw"])).estimate(), float(row["seconds"])
+
+
 @pytest.mark.parametrize("seed", [10011, 10035, 10059])
 def test_moving_roughness_on_few_cells_is_estimated_within_three_of_what_it_took(seed):
     """On 300 to 500 cells the calls of a Newton step take several times as long as its counted work."""
-    (row,) = (row for row in rows() if row["seed"] == str(seed))
-    estimate = drawn(seed, int(row["draw"])).estimate()
-    taken = float(row["seconds"])
+    estimate, taken = estimate_and_taken(seed)
     assert taken / 3 <= estimate <= 3 * taken
+
+
+def test_a_piece_that_is_not_smooth_is_estimated_with_the_shortest_cells_that_it_needs():
+    """Roughness at rest with an exponential autocorrelation takes 32 s of counted work."""
+    estimate, taken = estimate_and_taken(99)
+    assert taken / 2 <= estimate <= 2 * taken
 
 
 @pytest.mark.parametrize("length", [4e-6, 8e-6])

@@ -100,6 +100,13 @@ LAST_LEVEL_OF_ONE_STRIP = 0.2
 # The same where more strips are solved [-].
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
+# The same where the heights are not smooth over a cell, of any number of strips [-]: 6 of 7
+# random points on exponential surfaces.
+LAST_LEVEL_IF_NOT_SMOOTH = 0.85
+
+# Part of these that solve it on still shorter cells [-]: 3 of these 6.
+SHORTER_IF_NOT_SMOOTH = 0.5
+
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of
 # ``verification.campaigns.estimates``.
 AT_REST = 0.64
@@ -271,9 +278,12 @@ def _work_at_rest(
         pieces += number * (1 + ON_LONGER_CELLS) * on_shorter.work(finer, on_shorter.first)
     if max(left) >= 4:
         finest = min(left[0], 4) * min(left[1], 4) * LENGTH_OF_LAST_PIECE * lengths * cells
-        part = _part_of_last_level(scene, sq=sq, speed=speed, cell=0.5 * fx * dx, count=count)
+        part = _part_of_last_level(scene, sq=sq, speed=speed, cell=0.5 * fx * dx, count=count, is_smooth=is_smooth)
         on_shortest = expected_steps(scene, sq, speed, min(left[0], 4) * columns)
         pieces += part * (1 + ON_LONGER_CELLS) * on_shortest.work(finest, on_shortest.first)
+        if min(left) >= 8 and not is_smooth:
+            on_still_shorter = expected_steps(scene, sq, speed, 8 * columns)
+            pieces += part * SHORTER_IF_NOT_SMOOTH * on_still_shorter.work(4 * finest, on_still_shorter.first)
     if scene.numerics.max_work is not None:
         pieces = min(pieces, PIECES_SHARE * max(scene.numerics.max_work - strips, 0.0))
     return strips + pieces + again
@@ -350,13 +360,16 @@ def _log_change_of_patch(
     return max(log_change, math.log(CHANGE_OF_FILM * (cell / scene.bodies.half_width) ** 2))
 
 
-def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int) -> float:
+def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int, is_smooth: bool) -> float:
     """Return the part of points of ``count`` strips that solve the last level: all or none of soft bodies, by the
-    length of the ``cell`` [m] of the level before (`error_of_soft_bodies`)."""
+    length of the ``cell`` [m] of the level before (`error_of_soft_bodies`); ``is_smooth``: whether the heights are
+    smooth over a cell."""
     line = scene.line_contact(abs(speed))
     if are_soft(line, sq):
         is_solved = SOFT_CELL_ERROR * (cell / line.half_width) ** 2 > scene.numerics.tolerance
         return 1.0 if is_solved else 0.0
+    if not is_smooth:
+        return LAST_LEVEL_IF_NOT_SMOOTH
     return LAST_LEVEL_OF_MORE_STRIPS if count > 1 else LAST_LEVEL_OF_ONE_STRIP
 
 
