@@ -338,23 +338,23 @@ def friction_over_speed(
     load = c["contact_load"] + c["film_load"]
     curve = _interpolant(c)
     error = np.inf if curve is None else between(curve)
-    line = _line(curve) if curve is not None and error <= DRAWN_ERROR else None
+    line = _line(curve) if curve is not None and error <= LARGEST_BETWEEN else None
     color = style.get("color", figures.BLUE)
     errors: list[Line2D] = []
     if has_interval:
         about = line and line[:2]
         errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
-    if line is None:
+    if line is not None and error <= DRAWN_ERROR:
+        (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
+    else:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        if curve is not None and error <= LARGEST_BETWEEN:
-            axes.plot(*_line(curve)[:2], "--", color=color, label=figures.INTERPOLATED_BETWEEN)
+        if line is not None:
+            axes.plot(*line[:2], "--", color=color, label=figures.INTERPOLATED_BETWEEN)
         elif speed.size > 1:  # a dotted line joins the points, and is no curve
             axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN)
         points = {"marker": "o", "ms": 4, "ls": ""} | style
         (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
-    else:
-        (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))

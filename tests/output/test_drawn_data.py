@@ -207,11 +207,14 @@ def test_a_line_between_points_is_interpolated_as_far_as_the_report_states_it(mo
     monkeypatch.setattr("lubfric.studies.tables.through", lambda columns: curve)
     monkeypatch.setattr("lubfric.studies.tables.between", lambda curve: error)
     axes = new_figure().subplots()
-    friction_over_speed(axes, COLUMNS)
+    f = COLUMNS["coefficient"]
+    friction_over_speed(axes, COLUMNS | {"interval_low": 0.99 * f, "interval_high": 1.01 * f})
     names = [line.get_label() for line in axes.lines]
     assert [name for name in names if name in ("interpolated", "not known in between")] == [label]
     x, f = data(axes, label)
     assert label != "interpolated" or np.allclose(f, 0.1 - 0.05 * x)
+    (low, high) = edges(axes, "95 % interval, without model-form error")
+    assert low.size == 3 or np.allclose([low / f, high / f], [[0.99], [1.01]])  # the band follows an interpolated line
 
 
 def test_errors_of_f_are_no_assumptions_below_a_curve(figures):
