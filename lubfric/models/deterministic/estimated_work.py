@@ -387,11 +387,14 @@ def _work_of_short_strip(
     shorter = (
         _solves_on(scene, sample, (max(1, cx // 2), max(1, cy // 2)), sq=sq, speed=speed)[0] if max(cx, cy) > 1 else 0.0
     )
+    shortest = 0.0
     if cx >= 4 <= cy:
-        shorter += QUARTER_OF_SHORT_STRIP * _solves_on(scene, sample, (cx // 4, cy // 4), sq=sq, speed=speed)[0]
+        shortest = _solves_on(scene, sample, (cx // 4, cy // 4), sq=sq, speed=speed)[0]
+    part = 1.0
     if is_smooth and scene.line_contact(abs(speed)).moes_film < RUBBED_FILM_OF_SHORT_STRIP * sq:
-        shorter *= PIECES_OF_RUBBED
-    return count * (on_longer + first) + (OF_SLOPE + ends) * again + shorter
+        part = PIECES_OF_RUBBED
+    least = count * (on_longer + first) + (OF_SLOPE + ends) * again + part * shorter
+    return least * (1.0 + part * shortest / least) ** QUARTER_OF_SHORT_STRIP
 
 
 def _solves_on(
