@@ -9,7 +9,14 @@ from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, TooManyCellsError, WorkLimitError
 from .pieces import Piece
 from .problem import are_soft
-from .strip import StripSolution, cautious_changes, changes_of, error_by_cells, expected_error_after
+from .strip import (
+    LEAST_RATIO_OF_PATCH,
+    StripSolution,
+    cautious_changes,
+    changes_of,
+    error_by_cells,
+    expected_error_after,
+)
 
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.ladder`).
@@ -163,7 +170,7 @@ def continued(
             coarsening = shorter
             spent += strip.work
             is_needed = tolerance == 0
-            by_cells = error_by_cells(changes_of(ladder))
+            by_cells = error_by_cells(changes_of(ladder), least_ratio=LEAST_RATIO_OF_PATCH)
             if has_end:
                 by_cells = error_by_cells(cautious_changes(changes_of(ladder)), max(left - 1, 1))
             error = max(by_cells, error_of_strip(strip))
