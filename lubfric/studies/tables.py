@@ -344,14 +344,16 @@ def friction_over_speed(
     if has_interval:
         about = line and line[:2]
         errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
-    if line is not None and error <= DRAWN_ERROR:
+    if line is not None:
+        of_points: dict[str, Any] = {}
+        if error > DRAWN_ERROR:
+            of_points |= {} if "label" in style else {"label": figures.FRICTION_COEFFICIENT}
+            style = {"label": figures.INTERPOLATED_BETWEEN} | style | {"ls": "--"}
         (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=color, **of_points)
     else:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        if line is not None:
-            axes.plot(*line[:2], "--", color=color, label=figures.INTERPOLATED_BETWEEN)
-        elif speed.size > 1:  # a dotted line joins the points, and is no curve
+        if speed.size > 1:  # a dotted line joins the points, and is no curve
             axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN)
         points = {"marker": "o", "ms": 4, "ls": ""} | style
         (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)

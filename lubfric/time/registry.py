@@ -47,9 +47,12 @@ class RunModel:
 
 
 def _load_sharing_in_words(scene: Scene) -> str:
+    which = "load-sharing model at all times"
+    if scene.numerics.model == "quick":
+        which += " (numerics.model = 'quick' is for steady points and has no run in time)"
     if why := why_moment_unknown(scene):
-        return f"load-sharing model at all times; its model-form error is not known and not in the interval: {why}"
-    return "load-sharing model at all times; the interval has the model-form error of steady motion"
+        return f"{which}; its model-form error is not known and not in the interval: {why}"
+    return f"{which}; the interval has the model-form error of steady motion"
 
 
 LOAD_SHARING = RunModel(

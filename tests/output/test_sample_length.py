@@ -77,4 +77,4 @@ def test_warnings_recommend_nothing_that_the_scene_has():
 
 def test_the_reason_against_the_deterministic_model_has_the_unit_of_its_key():
     scene = ROLLING.with_(lubricant={"shear_modulus": "100 MPa"}, numerics={"model": "auto"})
-    assert "lubricant.shear_modulus = 100 MPa (the deterministic model allows None" in describe_scene(scene)
+    assert "lubricant.shear_modulus = 100 MPa (the deterministic model allows none," in describe_scene(scene)

@@ -51,3 +51,8 @@ def test_info_advises_no_model_that_the_scene_is_refused_with():
     advice = "set numerics.model = 'deterministic' to model this motion"
     assert advice not in starved and "no model includes this motion with lubricant.inlet_length" in starved
     assert advice in flooded
+
+
+@pytest.mark.parametrize("model, is_said", [("quick", True), ("paper", False), ("auto", False)])
+def test_info_says_that_the_quick_model_has_no_run_in_time(model, is_said):
+    assert ("has no run in time" in describe_scene(RUN.with_(numerics={"model": model}))) == is_said

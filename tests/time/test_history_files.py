@@ -91,7 +91,7 @@ def test_per_cent_without_brackets_are_not_taken_for_shares(tmp_path, heading):
             read_history(path, heading, unit=unit)
 
 
-@pytest.mark.parametrize("heading", ["U m/s", "U_m_s", "Umm", "alarms", "mm/s (m/s)", "h", "P", "rpm"])
+@pytest.mark.parametrize("heading", ["U m/s", "U_m_s", "Umm", "alarms", "mm/s (m/s)", "h", "P"])
 def test_a_heading_that_names_no_other_unit_is_si(tmp_path, heading):
     path = write(tmp_path, f"time s;{heading}\n0;100\n1;200\n")
     for unit in ("m/s", None):
