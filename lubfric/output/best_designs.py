@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..models.shared import sentence
 from ..quantities import COLUMNS, worded_value
 from ..studies import (
     ORDERED_BY,
@@ -18,6 +19,7 @@ from ..studies import (
     design_keys,
     name_of,
     operating_keys,
+    why_not_compared,
 )
 from ..units import beside_interval, interval_in_words, with_interval
 from .markup import INTERVAL_OF_F, plain_cells, table
@@ -74,6 +76,8 @@ def best_lines(result: StudyResult) -> list[str]:
     table; none where no designs are compared."""
     if not has_designs(result):
         return []
+    if why := why_not_compared(result.plan):
+        return [sentence(why)]
     lines = []
     quantity = "power_loss" if result.paired else "coefficient"
     mean = best_mean(result, quantity)

@@ -176,6 +176,9 @@ def builtin_scenes() -> tuple[str, ...]:
 def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
     """Return a validated `Scene` from the tables of a TOML file."""
     table = {key: value for key, value in table.items() if key != OPTIONS_KEY}
+    if "scene" in table:
+        recommendation = "use 'lubfric study FILE', with --explain for its points and its time"
+        raise InputError("the key 'scene' belongs to the file of a study", recommendation=recommendation)
     validate.keys("scene", table, ("name", *SECTIONS), lambda: keys_elsewhere() | meant("scene"))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):

@@ -44,6 +44,34 @@ def design_keys(plan: Any) -> tuple[str, ...]:
     return tuple(key for key in _varied(plan) if key not in conditions)
 
 
+def have_common_condition(plan: Any) -> bool:
+    """Return whether some designs of a `StudyPlan` are solved at one condition, so that they can be compared. Where
+    both are drawn together, as in ``[sample]``, each design has a condition of its own."""
+    conditions = operating_keys(plan)
+    designs = design_keys(plan)
+    for dim in {plan.coords[key][0] for key in designs}:
+        of_dim = {key: values.tolist() for key, (name, values) in plan.coords.items() if name == dim}
+        count = len(next(iter(of_dim.values())))
+        at = [tuple(of_dim[key][i] for key in conditions if key in of_dim) for i in range(count)]
+        design = [tuple(of_dim[key][i] for key in designs if key in of_dim) for i in range(count)]
+        if len(set(zip(at, design))) > len(set(at)):
+            return True
+    return False
+
+
+def why_not_compared(plan: Any) -> str:
+    """Return that each design of a `StudyPlan` has a condition of its own, and what to change, as text; "" where some
+    have one in common, or there are no designs or no conditions."""
+    conditions = operating_keys(plan)
+    if not conditions or not design_keys(plan) or plan.chooses_speeds or have_common_condition(plan):
+        return ""
+    varied = ", ".join(key for key in conditions if key != SPEED) or SPEED
+    return (
+        f"designs are not compared, because each has operating conditions of its own ({varied}); give these in [vary], "
+        "so that all designs have them in common"
+    )
+
+
 def _varied(plan: Any) -> list[str]:
     varied = [key for key, (_, values) in plan.coords.items() if np.unique(values).size > 1]
     return [*varied, SPEED] if plan.chooses_speeds else varied

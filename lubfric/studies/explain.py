@@ -31,7 +31,7 @@ from ..models.shared import (
 )
 from ..quantities import counted, worded_value
 from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
-from .conditions import design_keys, operating_keys
+from .conditions import design_keys, operating_keys, why_not_compared
 from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
@@ -252,7 +252,8 @@ def explained(
     conditions = operating_keys(plan)
     designs = design_keys(plan)
     if conditions and designs and not plan.chooses_speeds:
-        lines.append(f"  designs  ({', '.join(designs)}) are compared at each condition ({', '.join(conditions)})")
+        compared = f"({', '.join(designs)}) are compared at each condition ({', '.join(conditions)})"
+        lines.append(f"  {why_not_compared(plan) or f'designs  {compared}'}")
     table = StudyTable(plan)
     table.read(Store(store))
     held = len(table.ended) if plan.chooses_speeds else table.solved

@@ -176,3 +176,8 @@ def test_a_wrong_value_is_shown_as_it_was_written_with_what_to_write(section, ke
     with pytest.raises(lubfric.InputError) as caught:
         lubfric.load_scene("paper").with_(**{section: {key: value}})
     assert words in str(caught.value)
+
+
+def test_the_file_of_a_study_is_no_scene():
+    with pytest.raises(lubfric.InputError, match="file of a study.*lubfric study FILE"):
+        lubfric.load_scene({"scene": "paper", "speeds": [0.1], "vary": {"surface.sq": [1e-7]}})

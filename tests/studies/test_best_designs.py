@@ -315,3 +315,15 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
     assert float(stated[1]) <= float(re.search(r"by at most about (\S+) % either way", before)[1])
     given = graded.with_(lubricant={"pressure_viscosity_coefficient": 2e-8})
     assert "measured oils" not in lubfric.plan_study(given, {"bodies.load": LOADS[:2]}, [2.0]).explain()
+
+
+@pytest.mark.parametrize("loads, compared", [((5.0, 3.0, 8.0), False), ((5.0, 3.0, 3.0), True)])
+def test_designs_that_have_no_condition_in_common_are_not_compared(loads, compared):
+    """Each roughness has a load of its own, as in a drawn sample; or two of three have one in common."""
+    together = {("surface.sq", "bodies.load"): list(zip(SQ, loads))}
+    text = lubfric.plan_study(SCENE, vary=together, speeds=[0.3]).explain()
+    result = made(np.array([[0.05], [0.07], [0.06]]), np.full((3, 1), 1e-3), vary=together, speeds=[0.3])
+    assert ("are compared at each condition" in text) == compared
+    assert ("designs are not compared" in text) == (not compared)
+    assert ("Designs are not compared" in " ".join(best_designs.best_lines(result))) == (not compared)
+    assert bool(lubfric.studies.best(result)) == compared
