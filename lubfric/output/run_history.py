@@ -1,6 +1,7 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
 from argparse import Namespace
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -94,7 +95,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         except (ConvergenceError, ValidityError) as error:
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
-        folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
+        mean = asdict(result.average())
+        folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT, mean=mean)
         for line in history_answer(
             scene, result, complete=failure is None
         ):  # before a file that was not written is an error

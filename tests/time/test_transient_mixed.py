@@ -1,5 +1,7 @@
 """Load sharing in time: the steady limit, cycles, hysteresis, rest, balances, checkpoint, command line."""
 
+import csv
+import json
 import re
 import time
 from dataclasses import replace
@@ -279,6 +281,11 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     assert names == {*stated.split()}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
+    with (tmp_path / "out" / "history.csv").open() as table:
+        history = list(csv.DictReader(table))
+    at, loss = (np.array([float(row[f"{name}]"]) for row in history]) for name in ("time [s", "power_loss [W"))
+    mean = json.loads((tmp_path / "out" / "result.json").read_text())["mean"]
+    assert mean["power_loss"] == pytest.approx(np.trapezoid(loss, at) / (at[-1] - at[0]), rel=1e-6)
     assert "t = 0.02 of 0.02 s" in capsys.readouterr().err
     (tmp_path / "out" / "history.png").unlink()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
