@@ -84,9 +84,13 @@ class WorkEstimate:
 class MeasuredTime:
     """What a strip of moving roughness takes, as measured on its first steps in time.
 
-    Attributes ---------- over_expected : processor time of the strip over that of `WorkEstimate` steps : number of
-    steps in time that were measured seconds : processor time [s] of the measurement most_strip_seconds : processor time
-    [s] of a strip above which its solve ends after so many steps; infinite: none does
+    Attributes
+    ----------
+    over_expected : processor time of the strip over that of `WorkEstimate`
+    steps : number of steps in time that were measured
+    seconds : processor time [s] of the measurement
+    most_strip_seconds : processor time [s] of a strip above which its solve ends after so many steps; infinite: none
+        does
     """
 
     over_expected: float

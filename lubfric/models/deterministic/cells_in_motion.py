@@ -74,13 +74,17 @@ HALVED_ERROR = 0.8
 class CellsInMotion:
     """What is known of the cells on which roughness moves, and their expected effect on f.
 
-    Attributes ---------- film_ratio : sliding part of f with twice the boundary film over that with half of it
-    coarse_x, coarse_y : length of the cells over the correlation length coarse_b : length of the cells along x over the
-    half-width of the Hertz strip, or of the smooth film where that is wider by_longer : relative change of f from cells
-    twice as long along y follows_lubricant : whether steps were of third order along the lubricant is_smooth : whether
-    the heights are smooth over the cells sliding_share : sliding part of f over f; the rest is the gradient of the
-    pressure, which the film does not change film_share : part of the load on film that does not rub with f_b; 1: not
-    known
+    Attributes
+    ----------
+    film_ratio : sliding part of f with twice the boundary film over that with half of it
+    coarse_x, coarse_y : length of the cells over the correlation length
+    coarse_b : length of the cells along x over the half-width of the Hertz strip, or of the smooth film where that is
+        wider
+    by_longer : relative change of f from cells twice as long along y
+    follows_lubricant : whether steps were of third order along the lubricant
+    is_smooth : whether the heights are smooth over the cells
+    sliding_share : sliding part of f over f; the rest is the gradient of the pressure, which the film does not change
+    film_share : part of the load on film that does not rub with f_b; 1: not known
     """
 
     film_ratio: float

@@ -120,17 +120,27 @@ OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 class Levels:
     """What all levels say of one operating point.
 
-    Attributes ---------- numbers : of the deterministic model on an infinite line contact, by name errors : their
-    relative standard errors, by name rolling_of_strips : rolling part of the friction force [N], mean of the strips;
-    what f has beside it are its sliding parts by_film : relative changes of f by half and by twice the boundary film
-    by_flow : relative change of f by another law of the flow by_inlet : relative change of f without the heat of the
-    inlet control_strips : number of strips of the first level, the control; 0: it was omitted pairs : the strips of the
-    second level pieces : those of the third, each on shorter and shorter cells shortest : the piece of the fourth;
-    empty: there is none finest : the first strip, on the shortest cells that it is solved on sampling_error : relative,
-    of f, by the number of strips difference_error : relative standard error of f, by the difference between the models
-    numerical : relative error of f, by the cells of the last level length : of all strips [m] end_of_cells : why there
-    are no shorter cells note : how f was corrected by the summits and the cells of moving roughness, as text; "": not
-    at all by_summits : the correction of f by the summits, relative to the f of this estimate
+    Attributes
+    ----------
+    numbers : of the deterministic model on an infinite line contact, by name
+    errors : their relative standard errors, by name
+    rolling_of_strips : rolling part of the friction force [N], mean of the strips; what f has beside it are its sliding
+        parts
+    by_film : relative changes of f by half and by twice the boundary film
+    by_flow : relative change of f by another law of the flow
+    by_inlet : relative change of f without the heat of the inlet
+    control_strips : number of strips of the first level, the control; 0: it was omitted
+    pairs : the strips of the second level
+    pieces : those of the third, each on shorter and shorter cells
+    shortest : the piece of the fourth; empty: there is none
+    finest : the first strip, on the shortest cells that it is solved on
+    sampling_error : relative, of f, by the number of strips
+    difference_error : relative standard error of f, by the difference between the models
+    numerical : relative error of f, by the cells of the last level
+    length : of all strips [m]
+    end_of_cells : why there are no shorter cells
+    note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
+    by_summits : the correction of f by the summits, relative to the f of this estimate
     """
 
     numbers: dict[str, float]

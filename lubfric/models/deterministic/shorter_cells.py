@@ -67,12 +67,16 @@ LARGE_ERROR = 0.1
 class ShorterCells:
     """What the third and the fourth level show of the effect of shorter cells.
 
-    Attributes ---------- pieces : those of the third level; (): it is not needed, or not solved shortest : the piece of
-    the fourth level; empty: it is not needed, or not solved strip : the first strip itself on the shortest cells, if
-    the sample refines in place; None: it is not solved on them sampling_error : of the mean relative change of f on
-    ``pieces``, from place to place change : expected relative change of the sliding part of f by short cells where
-    roughness moves, which are not solved error : relative error of f that the last cells leave end : why there are no
-    shorter ones
+    Attributes
+    ----------
+    pieces : those of the third level; (): it is not needed, or not solved
+    shortest : the piece of the fourth level; empty: it is not needed, or not solved
+    strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
+    sampling_error : of the mean relative change of f on ``pieces``, from place to place
+    change : expected relative change of the sliding part of f by short cells where roughness moves, which are not
+        solved
+    error : relative error of f that the last cells leave
+    end : why there are no shorter ones
     """
 
     pieces: tuple[Piece, ...] = ()

@@ -62,11 +62,18 @@ NEGLIGIBLE_FILM = 1e-14
 class Balance(Renamed, ModelDetails):
     """Film and contact of one operating point in balance, by Eq. (8).
 
-    Attributes ---------- film_load, contact_load : loads of film and contact [N] film : None: none carries load
-    contact_state : the rough contact at its load forces : friction, and the heat behind it report : of the root
-    response : how the balance reacts to an error of its gap; None: the film carries everything settings : tolerances
-    with which it was solved; None: no film was notes : choices that a reader should know why_no_film : why none carries
-    load, as text: no entrainment, or a given film that does not fill the gap; "": one does
+    Attributes
+    ----------
+    film_load, contact_load : loads of film and contact [N]
+    film : None: none carries load
+    contact_state : the rough contact at its load
+    forces : friction, and the heat behind it
+    report : of the root
+    response : how the balance reacts to an error of its gap; None: the film carries everything
+    settings : tolerances with which it was solved; None: no film was
+    notes : choices that a reader should know
+    why_no_film : why none carries load, as text: no entrainment, or a given film that does not fill the gap; "": one
+        does
     """
 
     kind = "balance"

@@ -76,12 +76,17 @@ REFERENCED = 0.1
 class BalancedSample(SampleSolution):
     """The first strips joined to one line, in balance, corrected for its cells, and what is known of its error.
 
-    Attributes ---------- prepared, sample, count, speed : as of `SampleSolution` raw_balance : as it was solved on
-    ``rough_contact`` corrected_balance : with the division of the load that native cells demand (`corrected`); before,
-    the raw one rough_contact : on the first ``count`` strips of ``sample`` scatter : from place to place effect : of
-    the cells first_effect : of the cells, at the load at which it was found and from which ``effect`` follows; None:
-    not found yet undetected : relative effect on f of contact that the sample may have missed by chance where it has
-    none
+    Attributes
+    ----------
+    prepared, sample, count, speed : as of `SampleSolution`
+    raw_balance : as it was solved on ``rough_contact``
+    corrected_balance : with the division of the load that native cells demand (`corrected`); before, the raw one
+    rough_contact : on the first ``count`` strips of ``sample``
+    scatter : from place to place
+    effect : of the cells
+    first_effect : of the cells, at the load at which it was found and from which ``effect`` follows; None: not found
+        yet
+    undetected : relative effect on f of contact that the sample may have missed by chance where it has none
     """
 
     prepared: Prepared

@@ -59,13 +59,19 @@ BY_LOAD = 2.0
 class CellStep:
     """The change when the cells of a piece become native, at one film and one contact load.
 
-    Attributes ---------- gap_change : of the mean gap beyond that of the mean film, whose columns change with the cells
-    [m] error : standard error of ``gap_change`` [m] remaining_change : estimated change of the gap still to come on
-    native cells [m]; 0: they were reached finer_grid_change : estimated change of the gap on cells half as long as
-    native ones [m]; NaN: these were not reached film_change : of the mean film [m] area_factor : factor on the contact
-    area fraction of A area_error : relative standard error of ``area_factor``, and what may still come length_factor :
-    factor on the contact area of the complete line, which may touch beyond A plastic_change : to be added to the
-    plastic area fraction edge_load_share : share of the load on the edge columns
+    Attributes
+    ----------
+    gap_change : of the mean gap beyond that of the mean film, whose columns change with the cells [m]
+    error : standard error of ``gap_change`` [m]
+    remaining_change : estimated change of the gap still to come on native cells [m]; 0: they were reached
+    finer_grid_change : estimated change of the gap on cells half as long as native ones [m]; NaN: these were not
+        reached
+    film_change : of the mean film [m]
+    area_factor : factor on the contact area fraction of A
+    area_error : relative standard error of ``area_factor``, and what may still come
+    length_factor : factor on the contact area of the complete line, which may touch beyond A
+    plastic_change : to be added to the plastic area fraction
+    edge_load_share : share of the load on the edge columns
     """
 
     gap_change: float = 0.0

@@ -24,10 +24,14 @@ OTHER_PARTS = "{}; without that part the model-form error is {}"
 class ModelErrorPart:
     """A part of the model-form error of f.
 
-    Attributes ---------- sides : relative errors at 95 %, towards 0 and away from it cause : what it comes from, as
-    text recommendation : what reduces it, as text; "": nothing that a user may give is_of_input : whether it comes from
-    an input that is not known, which no other model knows either is_usual : whether it is usual for the model that
-    answers (docs/models.md), so that a note reports it instead of a warning
+    Attributes
+    ----------
+    sides : relative errors at 95 %, towards 0 and away from it
+    cause : what it comes from, as text
+    recommendation : what reduces it, as text; "": nothing that a user may give
+    is_of_input : whether it comes from an input that is not known, which no other model knows either
+    is_usual : whether it is usual for the model that answers (docs/models.md), so that a note reports it instead of a
+        warning
     """
 
     sides: tuple[float, float]

@@ -116,9 +116,13 @@ SHEARS = (0.5, 1.0, 2.0)
 class UnmodelledEffect:
     """An effect that is not modelled.
 
-    Attributes ---------- what : the effect, as text change : likely change of f, relative [-]; NaN where it is not
-    known recommendation : what to do is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient:
-    then the change is the largest one either way
+    Attributes
+    ----------
+    what : the effect, as text
+    change : likely change of f, relative [-]; NaN where it is not known
+    recommendation : what to do
+    is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient: then the change is the largest one
+        either way
     """
 
     what: str
