@@ -57,7 +57,11 @@ class Bodies:
     @property
     def weight(self) -> np.ndarray:
         """Share of each cell along x within the Hertz strip of the total load."""
-        inside = np.clip(self.edges, -self.contact.half_width, self.contact.half_width)
+        return self.weight_within(self.contact.half_width)
+
+    def weight_within(self, half_width: float) -> np.ndarray:
+        """Return the share of each cell along x within this ``half_width`` (m)."""
+        inside = np.clip(self.edges, -half_width, half_width)
         return np.diff(inside) / np.diff(self.edges)
 
     def under(self, shape: np.ndarray, load: float) -> Under:

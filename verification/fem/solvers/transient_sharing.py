@@ -5,8 +5,8 @@ not.
 
 in the Hertz variables of the load at time 0 at a speed U0 (`ehl`). The rough strip is pressed with F_T(T) - F_H under
 the shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is
-the mean film over the Hertz strip of the load at time 0, balanced in every step by `sharing.root`. Steps in time are
-BDF2, the first one Euler's.
+the mean film over the Hertz strip of the load of the moment, whose half-width is b sqrt(F_T(T)/F_T(0)), balanced in
+every step by `sharing.root`. Steps in time are BDF2, the first one Euler's.
 """
 
 from collections.abc import Callable, Iterator
@@ -218,7 +218,9 @@ def moment_of(bodies: Bodies, moving: Moving, state: TransientFilmState, film_lo
     shape = cell_means(film, bodies.edges)
     contact_load = moving.load - film_load
     under = bodies.under(shape, contact_load)
-    weight = bodies.weight / bodies.weight.sum()
+    half_width = bodies.contact.half_width * np.sqrt(moving.load / bodies.load)
+    weight = bodies.weight_within(half_width)
+    weight = weight / weight.sum()
     return SharedMoment(
         time=time,
         film_load=film_load,
