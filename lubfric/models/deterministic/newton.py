@@ -205,10 +205,14 @@ def _advanced(system: System, step: Change, least: float) -> tuple[Iterate, floa
     for _ in range(STEP_HALVINGS):
         tried = admissible(at.problem, step.added(at.state, length))
         new = evaluated(at.problem, tried, at.history)
+        of_all = _imbalance(new, apart)
         counted = apart if at.history is not None else apart & (tried.kind == at.state.kind)
-        measures.append(_asked(system, new, counted) if is_far else _imbalance(new, counted))
+        if is_far:
+            measures.append(_asked(system, new, counted))
+        else:
+            measures.append(of_all if counted is apart else _imbalance(new, counted))
         growth = STEP_GROWTH if length > least else SURGE
-        if measures[-1] <= growth * before and _imbalance(new, apart) <= SURGE * imbalance:
+        if measures[-1] <= growth * before and of_all <= SURGE * imbalance:
             break
         length /= 2
     return new, measures[0], length

@@ -294,9 +294,9 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf, *, least_ra
     ``changes`` from grid to grid (`change_of`).
 
     It is the geometric series of the last change, with the ratio q of the last two kept within ``least_ratio`` and 3/4
-    (0.6 from one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
-    ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential surfaces
-    under heavy loads the changes grow down to those cells.
+    (0.6 from one change). ``left``: how often the cells can be halved until they are those that the answer is for. The
+    series ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential
+    surfaces under heavy loads the changes grow down to those cells.
     """
     before = changes[-2] if len(changes) > 1 else 0.0
     if math.isinf(left):
