@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
+from ..errors import InputError
 from ..models.shared import film_lubricant, inlet_at
 from ..oil import Lubricant
 from ..scene import Bodies, Constant, History, Motion, Scene, Transient, sampled_times
@@ -25,6 +26,14 @@ def transient_of(scene: Scene) -> Transient:
     """Return what changes in a scene of a run in time."""
     assert scene.transient is not None
     return scene.transient
+
+
+def check_start(base: Scene) -> None:
+    """Raise `InputError` for a steady start without entrainment."""
+    transient = transient_of(base)
+    speed = (transient.speed or Constant(base.motion.entrainment_speed)).before(0.0)
+    if transient.initial == "steady" and transient.initial_film is None and speed == 0.0:
+        raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
 
 
 def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:

@@ -20,7 +20,7 @@ from .film_setting import NODE_FACTORS, LineHistory, make_setting, steady_start
 from .load_sharing_solver import ContactStep
 from .march import Step
 from .model import Start
-from .scene_in_time import inlet_viscosity, scene_at, sliding_at, transient_of
+from .scene_in_time import check_start, inlet_viscosity, scene_at, sliding_at, transient_of
 from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
 # Speeds of a run at which its assumptions are checked: a choice between time and what is seen.
@@ -81,14 +81,6 @@ def check_load_sharing(base: Scene) -> None:
     for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
     check_start(base)
-
-
-def check_start(base: Scene) -> None:
-    """Raise `InputError` for a steady start without entrainment."""
-    transient = transient_of(base)
-    speed = (transient.speed or Constant(base.motion.entrainment_speed)).before(0.0)
-    if transient.initial == "steady" and transient.initial_film is None and speed == 0.0:
-        raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
 
 
 def _line_history(scene: Scene) -> LineHistory:

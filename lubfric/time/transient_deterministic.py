@@ -57,8 +57,7 @@ from .film_setting import WET_PRESSURE
 from .march import Memory, Progress, Step
 from .model import Output, Start
 from .moment_columns import ends_of_film, motion_columns, sense_of_friction
-from .scene_in_time import SLIDING_PART, scene_at, sliding_at, surface_speed, transient_of
-from .start import check_start
+from .scene_in_time import SLIDING_PART, check_start, scene_at, sliding_at, surface_speed, transient_of
 
 # Choices between work and error, and limits for time and memory.
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said

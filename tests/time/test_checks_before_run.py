@@ -8,7 +8,7 @@ import lubfric
 from lubfric.models.shared import Assumption
 from lubfric.output import describe_scene
 from lubfric.scene import Table, Transient
-from lubfric.time import expected_violations_of_run
+from lubfric.time import expected_violations_of_run, way_to_motion_in_time
 
 NOSE = Table(times=(0.0, 1e-3, 2e-3), values=(0.3, 0.1, 0.2))
 SLIDING = Table(times=(0.0, 1e-3, 2e-3), values=(0.1, 0.4, 0.1))
@@ -51,6 +51,25 @@ def test_info_advises_no_model_that_the_scene_is_refused_with():
     advice = "set numerics.model = 'deterministic' to model this motion"
     assert advice not in starved and "no model includes this motion with lubricant.inlet_length" in starved
     assert advice in flooded
+
+
+@pytest.mark.parametrize(
+    ("duration", "most_work", "stated"),
+    [
+        (1e-2, 1.0, "within numerics.max_work = 1 s"),
+        (1.0, None, "within an hour"),
+        (10.0, None, "refuses transient.duration"),
+    ],
+)
+def test_a_deterministic_run_is_not_advised_where_it_takes_too_long_or_is_refused(duration, most_work, stated):
+    scene = MOVING.with_(
+        lubricant={"inlet_length": None},
+        contact={"shape": (48, 384)},
+        numerics={"max_work": most_work},
+        transient=Transient(duration=duration, outputs=1, speed=0.1),
+    )
+    way = way_to_motion_in_time(scene)
+    assert stated in way and "set numerics.model" not in way
 
 
 @pytest.mark.parametrize("model, is_said", [("quick", True), ("paper", False), ("auto", False)])
