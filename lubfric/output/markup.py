@@ -68,9 +68,11 @@ def picture(content: bytes, caption: str) -> str:
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[Cell]], *, in_sentences: bool = False) -> str:
-    """Return a table of ``rows`` that scrolls by itself where it is wider than the page. On a narrow screen each row of more than
-    `NARROW_COLUMNS`, or of sentences, becomes a list in which every cell has its heading before it, so that nothing is
-    cut."""
+    """Return a table of ``rows`` that scrolls by itself where it is wider than the page.
+
+    On a narrow screen each row of more than `NARROW_COLUMNS`, or of sentences, becomes a list in which every cell has
+    its heading before it, so that nothing is cut.
+    """
     kind = ' class="wide"' if len(heads) > NARROW_COLUMNS or in_sentences else ""
     kind = ' class="wide many"' if len(heads) > MANY_COLUMNS else kind
     kinds = _kinds_of_heads(heads, rows)

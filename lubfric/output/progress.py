@@ -29,8 +29,9 @@ _active: ProgressLine | None = None
 class ProgressLine:
     """Use as ``with ProgressLine("points") as progress: progress.update(done, total)``.
 
-    A ``unit`` that begins with "%" is of a total of 100. ``time_left``: of work whose parts are estimated; else the time left is that of what is done so far. The line is a
-    bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
+    A ``unit`` that begins with "%" is of a total of 100. ``time_left``: of work whose parts are estimated; else the
+    time left is that of what is done so far. The line is a bar of tqdm where that is installed (``pip install
+    'lubfric[progress]'``), else plain text.
     """
 
     def __init__(self, unit: str, time_left: TimeLeft | None = None):

@@ -72,6 +72,17 @@ def why_not_compared(plan: Any) -> str:
     )
 
 
+def comparison_in_words(plan: Any) -> str:
+    """Return which designs of a `StudyPlan` are compared at which conditions, or `why_not_compared`, as text; "" where
+    there are no designs or no conditions."""
+    conditions = operating_keys(plan)
+    designs = design_keys(plan)
+    if not conditions or not designs or plan.chooses_speeds:
+        return ""
+    compared = f"designs  ({', '.join(designs)}) are compared at each condition ({', '.join(conditions)})"
+    return why_not_compared(plan) or compared
+
+
 def _varied(plan: Any) -> list[str]:
     varied = [key for key, (_, values) in plan.coords.items() if np.unique(values).size > 1]
     return [*varied, SPEED] if plan.chooses_speeds else varied

@@ -31,7 +31,7 @@ from ..models.shared import (
 )
 from ..quantities import counted, worded_value
 from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
-from .conditions import design_keys, operating_keys, why_not_compared
+from .conditions import comparison_in_words
 from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
@@ -249,11 +249,8 @@ def explained(
         lines.append(f"      about {EXPECTED_SPEEDS} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; the histories of the scene ([transient]) are ignored")
-    conditions = operating_keys(plan)
-    designs = design_keys(plan)
-    if conditions and designs and not plan.chooses_speeds:
-        compared = f"({', '.join(designs)}) are compared at each condition ({', '.join(conditions)})"
-        lines.append(f"  {why_not_compared(plan) or f'designs  {compared}'}")
+    if compared := comparison_in_words(plan):
+        lines.append(f"  {compared}")
     table = StudyTable(plan)
     table.read(Store(store))
     held = len(table.ended) if plan.chooses_speeds else table.solved

@@ -98,12 +98,6 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         """The largest relative numerical error of f at the solved speeds around lift-off; 0 where there is none."""
         return self._curve.numerical_at_lift_off
 
-    @property
-    def least(self) -> tuple[float, float]:
-        """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated. ``minimum``
-        says how well that is known."""
-        return self.minimum.speed, self.minimum.coefficient
-
     @cached_property
     def minimum(self) -> Minimum:
         """The least f between the solved speeds, with its 95 % interval: it combines the error of the interpolation

@@ -175,7 +175,9 @@ def test_an_adaptive_curve_is_that_of_many_solves(auto):
     speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
     direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)
     np.testing.assert_allclose(auto.at(speeds), direct.coefficient, rtol=0.01)
-    assert auto.at(auto.least[0]) == pytest.approx(auto.least[1]) and auto.least[1] <= auto.coefficient.min() * 1.001
+    minimum = auto.minimum
+    assert auto.at(minimum.speed) == pytest.approx(minimum.coefficient)
+    assert minimum.coefficient <= auto.coefficient.min() * 1.001
     (line,) = (line for line in auto.plot().lines if line.get_label() == "friction coefficient")
     np.testing.assert_allclose(line.get_ydata(), auto.at(line.get_xdata()))
     assert direct.contact_load[speeds < auto.lift_off][-1] > 0 == direct.contact_load[speeds > auto.lift_off][0]

@@ -203,9 +203,10 @@ class System:
     def solve(self, accuracy: float = GMRES_RESIDUAL) -> tuple[Change, int]:
         """Return the Newton step, and the iterations of GMRES.
 
-        The right side is minus the `equations` at the state. GMRES ends at a residual of ``accuracy`` times the right side. In a step in time, and at rest where the pressure is high
-        (`HIGH_PRESSURE`), each row counts by the diagonal of its sparse part in that norm: a cell at high pressure has
-        coefficients that are larger by the viscosity.
+        The right side is minus the `equations` at the state. GMRES ends at a residual of ``accuracy`` times the right
+        side. In a step in time, and at rest where the pressure is high (`HIGH_PRESSURE`), each row counts by the
+        diagonal of its sparse part in that norm: a cell at high pressure has coefficients that are larger by the
+        viscosity.
         """
         at = self.at
         right = -self.equations(at)

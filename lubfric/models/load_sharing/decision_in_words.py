@@ -31,7 +31,8 @@ def decision_of(
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
         if (error := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
-            text = f"the film's friction is not resolved (a pressure spike?): estimated error {percent_or_less(error, 1)} of f"
+            of_f = percent_or_less(error, 1)
+            text = f"the film's friction is not resolved (a pressure spike?): estimated error {of_f} of f"
             notes = (*notes, text)
     return Decision(
         film_in_words=f"none, {balance.why_no_film}" if film is None else "full EHL",
