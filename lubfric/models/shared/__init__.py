@@ -5,6 +5,13 @@ errors of means along a line and the number of strips that they need; `wording` 
 and `deterministic` do not import each other, `quick` imports both, and all import this one.
 """
 
+from .alpha_in_words import (
+    alpha_beside_interval,
+    alpha_of_fit_in_words,
+    alpha_of_points_in_words,
+    expected_alpha_at,
+    expected_alpha_in_words,
+)
 from .checks import (
     ERROR_OF_ORDER_OF_MAGNITUDE,
     LARGE_NUMERICAL_ERROR,
@@ -47,6 +54,7 @@ from .checks_before import (
 from .control_variate import ControlVariate, with_divided_sliding, with_forces_of_film, with_rest_rolling
 from .decision import Decision
 from .film_speed import film_and_exponents, speed_of
+from .guessed_friction import GAP_IN_CONTACT, expected_coefficient, expected_typical_heat
 from .heat import (
     Heat,
     PressurisedFilm,
@@ -124,19 +132,11 @@ from .statistics import (
 )
 from .unknown_limit import GIVE_LIMIT, LIMIT_RANGE, limit_bounds, limit_in_words
 from .unmodelled import (
-    GAP_IN_CONTACT,
     ExpectedEffect,
     UnmodelledEffect,
-    alpha_beside_interval,
-    alpha_of_fit_in_words,
-    alpha_of_points_in_words,
     change_in_words,
     effect_in_words,
-    expected_alpha_at,
-    expected_alpha_in_words,
-    expected_coefficient,
     expected_effects,
-    expected_typical_heat,
     stated_way_to_motion,
     unmodelled_effects,
 )

@@ -1,30 +1,24 @@
 """Effects that are not modelled, and by how much f would likely change: `unmodelled_effects` of a result, and
-`expected_effects` before there is one, from closed forms alone.
+`expected_effects` before there is one, from the closed forms of `Guess` alone.
 
-f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the load on the asperities (Aihara's law, one
-of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the total load
-over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
-under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
-known, mu is scaled to what it has; s follows Aihara's law from what it has by load sharing, and by models of the
-resolved gap s/(1 - s) follows a power of λ that solved contacts show. Before there is one, both have a range (`POWERS`,
-`SHEARS`), and so has the change of f: it holds that of the result by any model.
+Before there is a result, its asperity load ratio and its shear have a range (`POWERS`, `SHEARS`), and so has the change
+of f: it holds that of the result by any model.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 
-from ...film import flooded_inlet, hertz, smallest_film, starved_inlet
-from ...oil import carried_stress, density_ratio, shear_stress
+from ...film import LineContact, flooded_inlet
+from ...oil import density_ratio
 from ...scene import Scene, has_generated_roughness, has_moving_roughness, why_gap_not_resolved
-from ...units import worded
 from .checks import peak_hertz_pressure
-from .checks_before import STRIP_NODES
-from .heat import TYPICAL, typical_heat_of_even_film
-from .violation import numbers_in_words
+from .guessed_friction import FrictionParts, Guess, guessed_parts, parts_together
+from .heat import TYPICAL
 from .wording import percent
 
 # Film over that of a full inlet, of the example of a starved one. A convention, not measured.
@@ -39,20 +33,6 @@ WARMER = 10.0
 # f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
 
-# Aihara's law of the asperity load ratio: exp(-`AIHARA_FACTOR` λ^`AIHARA_POWER`). As printed by the sources of
-# docs/theory.md.
-AIHARA_FACTOR = 1.8
-AIHARA_POWER = 1.2
-
-# Power of λ with which the load on asperities over that on the film changes, where roughness rests and where it moves
-# [-]. Fitted with the pressure-viscosity coefficient times the pressure to 237 and 209 contacts solved by the
-# deterministic model (verification.campaigns.calibration): -3.47 ± .17 and -2.72 ± .15.
-LOAD_RATIO_AT_REST = -3.5
-LOAD_RATIO_IN_MOTION = -2.7
-
-# Mean gap of a contact that carries most of the load [Sq], about: measured 1.67 in the scene "paper" at 1 mm/s.
-GAP_IN_CONTACT = 1.6
-
 # Film over Sq from which the motion of roughness has little effect. A choice: the lambda ratio of full-film
 # lubrication.
 FILM_THAT_HIDES_ROUGHNESS = 3.0
@@ -63,17 +43,6 @@ SOFT_E_PRIME = 5e9
 # Half-widths of the Hertz strip that a cover must be thick to count as a half-space. A choice: the stress of a line
 # contact falls with the depth, to .2 of its largest there.
 DEEP = 5.0
-
-# Least share of asperities or film of the load that is scaled to that of a result. A choice, against a division by 0.
-LEAST_SCALED_SHARE = 1e-6
-
-# Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has fallen to 4 % of
-# its largest there. A choice: less cuts the film off.
-UPSTREAM = 4.0
-
-# Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder. It
-# follows from Reynolds' equation (Swift-Stieber).
-REYNOLDS_RUPTURE = 0.475
 
 # Friction of asperities over f_b between which the correlation length of the roughness counts [-]; of moving roughness
 # in a thin film the upper end alone: it bends the film without touching. A choice: the ends of mixed lubrication, where
@@ -87,13 +56,6 @@ COMPRESSING_PRESSURE = 0.7e9
 
 # Part of f by asperities below which the film makes it. A choice: it selects a sentence.
 LEAST_ASPERITY_PART = 0.1
-
-
-# Power of the pressure-viscosity coefficient with which the load on asperities over that on the film falls at a given
-# film [-]: asperities press the film between them far above the Hertz pressure. A choice: with it the bound holds at 23
-# contacts, at rest and rolling, of Λ from 0.02 to 6, solved by the quick model with both ends of the range; where they
-# change f by 1 % or more, it is 1.1 to 15 times the change.
-LOAD_RATIO_BY_ALPHA = -1.0
 
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
 GIVE_ALPHA = (
@@ -181,6 +143,73 @@ class ExpectedEffect:
 AnyEffect = TypeVar("AnyEffect", UnmodelledEffect, ExpectedEffect)
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Point:
+    """An operating point whose effects are found (`_possible_effects`).
+
+    Attributes
+    ----------
+    guess : of f there, with the scene, Sq and the speed
+    with_ranges : the scene of the run in time, which holds the ranges and tables that a moment has not; else the scene
+    is_in_time : whether the point is a moment of a run in time
+    includes_motion : whether the model has the motion of the roughness
+    way_to_motion : what to do to include it, as text
+    """
+
+    guess: Guess
+    with_ranges: Scene
+    is_in_time: bool
+    includes_motion: bool
+    way_to_motion: str
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the point."""
+        return self.guess.scene
+
+    @cached_property
+    def line(self) -> LineContact:
+        """The smooth line contact."""
+        return self.scene.line_contact(self.guess.speed)
+
+    @property
+    def is_thin(self) -> bool:
+        """Whether the motion of the roughness changes the film."""
+        return self.line.expected_film < FILM_THAT_HIDES_ROUGHNESS * self.guess.sq
+
+    def parts(self, result: FrictionParts | None) -> FrictionParts:
+        """Return the parts of f of the ``result``, or of the guess."""
+        return result or self.guess.parts
+
+    def change_to(
+        self, other: Scene, *, sq: float | None = None, times: float = 1.0
+    ) -> Callable[[FrictionParts | None], float]:
+        """Return the relative change of f to an ``other`` scene, or Sq (``sq`` [m]), or at so many ``times`` the film;
+        as a function of the result."""
+        after = guessed_parts(other, self.guess.sq if sq is None else sq, self.guess.speed, times)
+        return lambda result: self.guess.change(after, result)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _PossibleEffect:
+    """An effect, whose ``change`` of f depends on the result: None where it has none. The others are those of
+    `UnmodelledEffect`."""
+
+    what: str
+    change: Callable[[FrictionParts | None], float | None]
+    recommendation: str
+    is_of_alpha: bool = False
+
+    def at(self, result: FrictionParts | None) -> UnmodelledEffect | None:
+        """Return the effect on a ``result``."""
+        change = self.change(result)
+        if change is None:
+            return None
+        return UnmodelledEffect(
+            what=self.what, change=change, recommendation=self.recommendation, is_of_alpha=self.is_of_alpha
+        )
+
+
 def unmodelled_effects(
     scene: Scene,
     sq: float,
@@ -201,104 +230,10 @@ def unmodelled_effects(
     (`lubfric.models.Model.includes_motion`); ``way_to_motion``: what to do to include it, as text; "":
     `stated_way_to_motion`.
     """
-    tolerance = scene.numerics.tolerance
-    effects = _all_effects(
-        scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion
-    )
-    return _largest_first([effect for effect in effects if not effect.largest_change <= tolerance])
-
-
-def _largest_first(effects: list[AnyEffect]) -> tuple[AnyEffect, ...]:
-    """Return ``effects`` with the largest change of f first; what is not known is last."""
-    return tuple(sorted(effects, key=lambda each: -each.largest_change if math.isfinite(each.changes[0]) else 0.0))
-
-
-def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
-    """Return in a sentence by how much the range of an estimated pressure-viscosity coefficient changes f at most at
-    ``count`` points of a study, where, and what to give; "" where the coefficient is given, or the changes are below
-    the tolerance.
-
-    ``effects_by_point``: the effects that are not modelled, by the number of the point, from 1.
-    """
-    changes = {number: _largest_by_alpha(effects) for number, effects in effects_by_point.items()}
-    numbers = sorted(number for number, change in changes.items() if change > 0)
-    if not numbers:
-        return ""
-    worst = max(numbers, key=lambda number: changes[number])
-    largest = at_most_in_words(changes[worst]) + (f" (at point {worst})" if count > 1 else "")
-    where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
-    others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
-    return (
-        "The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. "
-        f"{where}{others}, by closed forms, "
-        f"that of measured oils changes f by {largest}; {GIVE_ALPHA}."
-    )
-
-
-def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]]) -> str:
-    """Return by how much the range of an estimated pressure-viscosity coefficient changes f at most at the points of a
-    fit, whose parameters have this error too, and what to give; "" as of `alpha_of_points_in_words`."""
-    largest = max(map(_largest_by_alpha, effects_of_points), default=0.0)
-    if not largest:
-        return ""
-    return (
-        "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the "
-        "fitted parameters; by "
-        f"closed forms, that of measured oils changes f by {at_most_in_words(largest)}; give "
-        "lubricant.pressure_viscosity_coefficient"
-    )
-
-
-def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
-    """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is
-    none."""
-    largest = _largest_by_alpha(effects)
-    if not largest:
-        return ""
-    return (
-        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed "
-        "forms, that of "
-        f"measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
-    )
-
-
-def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffect]) -> str:
-    """Return what the range of an estimated pressure-viscosity coefficient means for f at ``speed`` [m/s], before there
-    is a result, and what to do, in two sentences; "" where none of the ``effects`` is of this coefficient."""
-    largest = _largest_by_alpha(effects)
-    if not largest:
-        return ""
-    (low, high) = (1e9 * alpha for alpha in _ends_of_alpha(scene))
-    return (
-        f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
-        "interval of f does "
-        f"not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of "
-        f"{worded(peak_hertz_pressure(scene), 'Pa')} it may change "
-        f"f by {at_most_in_words(largest)}, as long as the asperity load ratio is not known; the report states what "
-        "remains for "
-        "the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a measurement, to "
-        "remove it, or "
-        "[value, low, high] to have the change solved and in the interval"
-    )
-
-
-def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
-    """Return how the range of an estimated pressure-viscosity coefficient changes f in a few words beside the interval
-    of f; "" as of `alpha_of_points_in_words`."""
-    largest = _largest_by_alpha(effects)
-    if not largest:
-        return ""
-    return (
-        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (that of measured "
-        "oils changes f by "
-        f"{at_most_in_words(largest)})"
-    )
-
-
-def _largest_by_alpha(effects: Sequence[UnmodelledEffect] | Sequence[ExpectedEffect]) -> float:
-    """Return the largest change of f by an estimated pressure-viscosity coefficient among the ``effects``; 0 where
-    there is none."""
-    return max((effect.largest_change for effect in effects if effect.is_of_alpha), default=0.0)
+    point = _point(scene, sq, speed, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion)
+    result = None if friction_parts is None else FrictionParts(*friction_parts)
+    effects = (effect.at(result) for effect in _possible_effects(point, point.parts(result).of_all))
+    return _largest_first([effect for effect in effects if effect is not None], scene.numerics.tolerance)
 
 
 def expected_effects(
@@ -313,93 +248,37 @@ def expected_effects(
     """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
     first. ``run``, ``includes_motion``, ``way_to_motion``: as in `unmodelled_effects`."""
-    of_boundary, f = _parts(scene, sq, speed)
-    of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
-    share = of_boundary / of_rubbing if of_rubbing else 0.0
-    shear = (f - of_boundary) / max(1.0 - share, LEAST_SCALED_SHARE)
-    ranges: dict[str, ExpectedEffect] = {}
-    for power in POWERS if of_rubbing and speed else (1.0,):
-        of_load = share**power
-        for more in SHEARS if of_rubbing and speed else (1.0,):
-            friction_parts = of_rubbing * of_load, of_rubbing * of_load + more * shear * (1.0 - of_load)
-            known_parts = friction_parts if friction_parts[1] > 0 else None
-            effects = _all_effects(
-                scene, sq, speed, known_parts, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion
+    point = _point(scene, sq, speed, run=run, includes_motion=includes_motion, way_to_motion=way_to_motion)
+    results = list(_expected_results(point.guess))
+    effects = []
+    for possible in _possible_effects(point, point.guess.parts.of_all):
+        changes = [change for change in map(possible.change, results) if change is not None]
+        if changes:
+            effects.append(
+                ExpectedEffect(
+                    what=possible.what,
+                    low=float(np.fmin.reduce(changes)),
+                    high=float(np.fmax.reduce(changes)),
+                    recommendation=possible.recommendation,
+                    is_of_alpha=possible.is_of_alpha,
+                )
             )
-            for effect in effects:
-                known = ranges.get(effect.what, _at_one_result(effect))
-                low = float(np.fmin(known.low, effect.change))
-                high = float(np.fmax(known.high, effect.change))
-                ranges[effect.what] = replace(known, low=low, high=high, recommendation=effect.recommendation)
-    tolerance = scene.numerics.tolerance
-    return _largest_first([effect for effect in ranges.values() if not effect.largest_change <= tolerance])
+    return _largest_first(effects, scene.numerics.tolerance)
 
 
-def _at_one_result(effect: UnmodelledEffect) -> ExpectedEffect:
-    """Return the ``effect`` with the range that is its one change of f."""
-    return ExpectedEffect(
-        what=effect.what,
-        low=effect.change,
-        high=effect.change,
-        recommendation=effect.recommendation,
-        is_of_alpha=effect.is_of_alpha,
-    )
+def _expected_results(guess: Guess) -> Iterator[FrictionParts | None]:
+    """Yield the parts of f between which those of a result lie; None, for the guess itself, where they are 0."""
+    varies = guess.of_rubbing > 0 and guess.speed != 0
+    for power in POWERS if varies else (1.0,):
+        for more in SHEARS if varies else (1.0,):
+            parts = parts_together(guess.of_rubbing, guess.share**power, more * guess.shear)
+            yield parts if parts.of_all > 0 else None
 
 
-def _all_effects(
-    scene: Scene,
-    sq: float,
-    speed: float,
-    friction_parts: tuple[float, float] | None = None,
-    *,
-    run: Scene | None = None,
-    includes_motion: bool,
-    way_to_motion: str = "",
-) -> list[UnmodelledEffect]:
-    """Return all effects, however small; arguments as of `unmodelled_effects`."""
-    bodies = scene.bodies
-    with_ranges = run or scene
-    of_boundary, f = friction_parts or _parts(scene, sq, speed)
-    effects: list[UnmodelledEffect] = []
-    if speed != 0 and f > 0:
-        effects = _of_film(
-            scene,
-            sq,
-            speed,
-            friction_parts,
-            is_in_time=run is not None,
-            includes_motion=includes_motion,
-            way_to_motion=way_to_motion or stated_way_to_motion(with_ranges),
-        )
-    is_stated = (
-        any("boundary_friction" in name for name, *_ in with_ranges.ranges)
-        or with_ranges.bodies.boundary_friction_table is not None
-    )
-    if f > 0 and not is_stated:
-        effects.append(
-            UnmodelledEffect(
-                what=f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})",
-                change=(RUBBED - 1) * of_boundary / f,
-                recommendation="give bodies.boundary_friction_coefficient = [low, high]",
-            )
-        )
-    effects.append(
-        UnmodelledEffect(
-            what="the edges of the line contact (edge pressure, misalignment)",
-            change=2 * bodies.half_width / bodies.width,
-            recommendation=(
-                "the number is the part of the line within half a contact width of its ends; use a three-dimensional "
-                "contact model if the edges matter"
-            ),
-        )
-    )
-    return effects
-
-
-def expected_coefficient(scene: Scene, sq: float, speed: float) -> float:
-    """Return the guess of |f| [-] of ``scene`` at ``speed`` [m/s] from closed forms, of which only ratios count;
-    ``sq`` [m]: of its surface."""
-    return _parts(scene, sq, speed)[1]
+def _largest_first(effects: list[AnyEffect], tolerance: float) -> tuple[AnyEffect, ...]:
+    """Return the ``effects`` above the ``tolerance`` with the largest change of f first; what is not known is last."""
+    notable = [effect for effect in effects if not effect.largest_change <= tolerance]
+    return tuple(sorted(notable, key=lambda each: -each.largest_change if math.isfinite(each.changes[0]) else 0.0))
 
 
 def stated_way_to_motion(scene: Scene) -> str:
@@ -409,137 +288,204 @@ def stated_way_to_motion(scene: Scene) -> str:
     return "set numerics.model = 'deterministic' to model this motion"
 
 
-def _of_film(
-    scene: Scene,
-    sq: float,
-    speed: float,
-    friction_parts: tuple[float, float] | None,
-    *,
-    is_in_time: bool,
-    includes_motion: bool,
-    way_to_motion: str,
-) -> list[UnmodelledEffect]:
-    """Return what needs a film."""
-    line = scene.line_contact(speed)
-    lubricant = scene.lubricant
-    thinner = math.exp(-WARMER * (lubricant.temperature_coefficient or TYPICAL[1]))
-    warm = scene.with_(lubricant={"oil": None, "viscosity": thinner * lubricant.viscosity})
-    reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
-    before = _parts(scene, sq, speed)
-    of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
-    is_narrow = line.expected_film * 2 * line.radius > line.half_width**2
-    is_of_film = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
-
-    by_film: float | None = None  # load sharing follows Aihara's law
-    if includes_motion:
-        by_film = LOAD_RATIO_IN_MOTION if has_moving_roughness(scene) else LOAD_RATIO_AT_REST
-
-    def change(other: Scene, rough: float, times: float = 1.0) -> float:
-        after = _parts(other, rough, speed, times)
-        if friction_parts is not None:
-            after = _scaled(of_rubbing, before, after, friction_parts, by_film=by_film)
-        return after[1] / (friction_parts or before)[1] - 1
-
-    effects: list[UnmodelledEffect] = []
-    if lubricant.floods:
-        is_unknown = is_narrow and is_of_film  # the rolling part may fall by more
-        effects.append(
-            UnmodelledEffect(
-                what=f"a starved inlet (film x {STARVED_EXAMPLE:g})",
-                change=math.nan if is_unknown else change(scene, sq, STARVED_EXAMPLE),
-                recommendation=(
-                    f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if it does "
-                    "not, give lubricant.inlet_length"
-                ),
-            )
-        )
-    peak = peak_hertz_pressure(scene)
-    if lubricant.density_law == "constant" and peak > COMPRESSING_PRESSURE:
-        density = float(density_ratio(replace(lubricant, density_law="dowson-higginson"), peak)[0])
-        effects.append(
-            UnmodelledEffect(
-                what=(
-                    f"compressibility of the lubricant ({density:.3g} times its density at the peak Hertz pressure: "
-                    "film thinner, rolling resistance smaller)"
-                ),
-                change=change(scene, sq, 1.0 / density),
-                recommendation="set lubricant.density_law = 'dowson-higginson'",
-            )
-        )
-    if ends := _ends_of_alpha(scene):
-        by_alpha = [
-            _bound_by_alpha(scene, sq, speed, alpha, friction_parts or before, of_rubbing=of_rubbing, by_film=by_film)
-            for alpha in ends
-        ]
-        effects.append(
-            UnmodelledEffect(
-                what=(
-                    f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, the "
-                    "range of measured oils, "
-                    "in place of the estimate"
-                ),
-                change=max(by_alpha),
-                recommendation=GIVE_ALPHA_IN_TIME if is_in_time else GIVE_ALPHA,
-                is_of_alpha=True,
-            )
-        )
-    effects.append(
-        UnmodelledEffect(
-            what=f"oil in the inlet {WARMER:g} K warmer than the given temperature",
-            change=change(warm, sq),
-            recommendation="give lubricant.temperature at the inlet of the contact",
-        )
+def _point(
+    scene: Scene, sq: float, speed: float, *, run: Scene | None, includes_motion: bool, way_to_motion: str
+) -> _Point:
+    """Return the point of the arguments of `unmodelled_effects`."""
+    with_ranges = run or scene
+    return _Point(
+        guess=Guess(scene=scene, sq=sq, speed=speed, resolves_gap=includes_motion),
+        with_ranges=with_ranges,
+        is_in_time=run is not None,
+        includes_motion=includes_motion,
+        way_to_motion=way_to_motion or stated_way_to_motion(with_ranges),
     )
-    if sq > 0:
-        effects.append(
-            UnmodelledEffect(
-                what=f"running-in of the surface (Sq x {WORN:g})",
-                change=change(scene, WORN * sq),
-                recommendation="give a height map measured after running-in, or use lubfric.run_in",
-            )
-        )
-        (least, most) = MIXED
-        of_asperities = (friction_parts or before)[0]
-        is_thin = line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq
-        is_mixed = least * of_rubbing < of_asperities < most * of_rubbing
-        if includes_motion and has_moving_roughness(scene) and is_thin:
-            is_mixed = of_asperities < most * of_rubbing or not of_rubbing  # the film follows the roughness there
-        if has_generated_roughness(scene) and is_mixed:
-            effects.append(
-                UnmodelledEffect(
-                    what="half or twice the correlation length of the roughness, which no drawing states",
-                    change=math.nan,
-                    recommendation=(
-                        "give a measured height map, or vary surface.correlation_length in a study; under heavy "
-                        "loads it may change f by "
-                        "more than its interval"
-                    ),
-                )
-            )
-        if has_moving_roughness(scene) and not includes_motion and is_thin:
-            effects.append(
-                UnmodelledEffect(
-                    what="motion of the roughness through the contact",
-                    change=math.nan,
-                    recommendation=way_to_motion,
-                )
-            )
-    if scene.bodies.e_prime < SOFT_E_PRIME:
-        effects.append(
-            UnmodelledEffect(
-                what="a thin soft cover, and its damping",
-                change=math.nan,
-                recommendation=(
-                    "the body is modelled as solid; if it is a cover thinner than "
-                    f"{1e3 * DEEP * line.half_width:.2g} mm, "
-                    "give e_prime such that the contact is as wide as measured"
-                ),
-            )
-        )
-    return effects
 
 
-def _ends_of_alpha(scene: Scene) -> tuple[float, ...]:
+def _possible_effects(point: _Point, friction: float) -> Iterator[_PossibleEffect]:
+    """Yield the effects that a ``point`` with this ``friction`` may have, however small."""
+    has_film = point.guess.speed != 0 and friction > 0
+    for find in (*EFFECTS_OF_FILM, *EFFECTS_OF_BODIES) if has_film else EFFECTS_OF_BODIES:
+        effect = find(point)
+        if effect is not None:
+            yield effect
+
+
+def _starved_inlet(point: _Point) -> _PossibleEffect | None:
+    if not point.scene.lubricant.floods:
+        return None
+    line = point.line
+    reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
+    is_narrow = line.expected_film * 2 * line.radius > line.half_width**2
+    change = point.change_to(point.scene, times=STARVED_EXAMPLE)
+
+    def known_change(result: FrictionParts | None) -> float:
+        parts = point.parts(result)
+        is_of_film = parts.of_asperities < LEAST_ASPERITY_PART * parts.of_all
+        return math.nan if is_narrow and is_of_film else change(result)  # the rolling part may fall by more
+
+    return _PossibleEffect(
+        what=f"a starved inlet (film x {STARVED_EXAMPLE:g})",
+        change=known_change,
+        recommendation=(
+            f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if it does not, give "
+            "lubricant.inlet_length"
+        ),
+    )
+
+
+def _compressibility(point: _Point) -> _PossibleEffect | None:
+    lubricant = point.scene.lubricant
+    peak = peak_hertz_pressure(point.scene)
+    if lubricant.density_law != "constant" or peak <= COMPRESSING_PRESSURE:
+        return None
+    density = float(density_ratio(replace(lubricant, density_law="dowson-higginson"), peak)[0])
+    return _PossibleEffect(
+        what=(
+            f"compressibility of the lubricant ({density:.3g} times its density at the peak Hertz pressure: film "
+            "thinner, rolling resistance smaller)"
+        ),
+        change=point.change_to(point.scene, times=1.0 / density),
+        recommendation="set lubricant.density_law = 'dowson-higginson'",
+    )
+
+
+def _estimated_alpha(point: _Point) -> _PossibleEffect | None:
+    guess = point.guess
+    scene = point.scene
+    ends = ends_of_alpha(scene)
+    if not ends:
+        return None
+    after = {
+        alpha: guessed_parts(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), guess.sq, guess.speed)
+        for alpha in ends
+    }
+    return _PossibleEffect(
+        what=(
+            f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, the range of "
+            "measured oils, in place of the estimate"
+        ),
+        change=lambda result: max(guess.bound_by_alpha(parts, result, alpha) for alpha, parts in after.items()),
+        recommendation=GIVE_ALPHA_IN_TIME if point.is_in_time else GIVE_ALPHA,
+        is_of_alpha=True,
+    )
+
+
+def _warmer_inlet(point: _Point) -> _PossibleEffect:
+    lubricant = point.scene.lubricant
+    thinner = math.exp(-WARMER * (lubricant.temperature_coefficient or TYPICAL[1]))
+    warm = point.scene.with_(lubricant={"oil": None, "viscosity": thinner * lubricant.viscosity})
+    return _PossibleEffect(
+        what=f"oil in the inlet {WARMER:g} K warmer than the given temperature",
+        change=point.change_to(warm),
+        recommendation="give lubricant.temperature at the inlet of the contact",
+    )
+
+
+def _running_in(point: _Point) -> _PossibleEffect | None:
+    if point.guess.sq == 0:
+        return None
+    return _PossibleEffect(
+        what=f"running-in of the surface (Sq x {WORN:g})",
+        change=point.change_to(point.scene, sq=WORN * point.guess.sq),
+        recommendation="give a height map measured after running-in, or use lubfric.run_in",
+    )
+
+
+def _correlation_length(point: _Point) -> _PossibleEffect | None:
+    scene = point.scene
+    if point.guess.sq == 0 or not has_generated_roughness(scene):
+        return None
+    of_rubbing = point.guess.of_rubbing
+    (least, most) = MIXED
+    follows_roughness = point.includes_motion and has_moving_roughness(scene) and point.is_thin  # of the film
+
+    def unknown_if_mixed(result: FrictionParts | None) -> float | None:
+        of_asperities = point.parts(result).of_asperities
+        if follows_roughness:
+            is_mixed = of_asperities < most * of_rubbing or not of_rubbing
+        else:
+            is_mixed = least * of_rubbing < of_asperities < most * of_rubbing
+        return math.nan if is_mixed else None
+
+    return _PossibleEffect(
+        what="half or twice the correlation length of the roughness, which no drawing states",
+        change=unknown_if_mixed,
+        recommendation=(
+            "give a measured height map, or vary surface.correlation_length in a study; under heavy loads it may "
+            "change f by more than its interval"
+        ),
+    )
+
+
+def _motion_of_roughness(point: _Point) -> _PossibleEffect | None:
+    if point.guess.sq == 0 or point.includes_motion or not has_moving_roughness(point.scene) or not point.is_thin:
+        return None
+    return _PossibleEffect(
+        what="motion of the roughness through the contact",
+        change=lambda result: math.nan,
+        recommendation=point.way_to_motion,
+    )
+
+
+def _soft_cover(point: _Point) -> _PossibleEffect | None:
+    if point.scene.bodies.e_prime >= SOFT_E_PRIME:
+        return None
+    return _PossibleEffect(
+        what="a thin soft cover, and its damping",
+        change=lambda result: math.nan,
+        recommendation=(
+            "the body is modelled as solid; if it is a cover thinner than "
+            f"{1e3 * DEEP * point.line.half_width:.2g} mm, give e_prime such that the contact is as wide as measured"
+        ),
+    )
+
+
+def _another_additive(point: _Point) -> _PossibleEffect | None:
+    given = point.with_ranges
+    has_range = any("boundary_friction" in name for name, *_ in given.ranges)
+    if has_range or given.bodies.boundary_friction_table is not None:
+        return None
+
+    def change(result: FrictionParts | None) -> float | None:
+        parts = point.parts(result)
+        return (RUBBED - 1) * parts.of_asperities / parts.of_all if parts.of_all > 0 else None
+
+    return _PossibleEffect(
+        what=f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})",
+        change=change,
+        recommendation="give bodies.boundary_friction_coefficient = [low, high]",
+    )
+
+
+def _edges(point: _Point) -> _PossibleEffect:
+    bodies = point.scene.bodies
+    part = 2 * bodies.half_width / bodies.width
+    return _PossibleEffect(
+        what="the edges of the line contact (edge pressure, misalignment)",
+        change=lambda result: part,
+        recommendation=(
+            "the number is the part of the line within half a contact width of its ends; use a three-dimensional "
+            "contact model if the edges matter"
+        ),
+    )
+
+
+# What finds the effects that need a film, and the others.
+EFFECTS_OF_FILM = (
+    _starved_inlet,
+    _compressibility,
+    _estimated_alpha,
+    _warmer_inlet,
+    _running_in,
+    _correlation_length,
+    _motion_of_roughness,
+    _soft_cover,
+)
+EFFECTS_OF_BODIES = (_another_additive, _edges)
+
+
+def ends_of_alpha(scene: Scene) -> tuple[float, ...]:
     """Return the least and the largest pressure-viscosity coefficient [1/Pa] of measured oils; () where the coefficient
     is given."""
     lubricant = scene.lubricant
@@ -547,121 +493,6 @@ def _ends_of_alpha(scene: Scene) -> tuple[float, ...]:
         return ()
     alpha = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature)
     return () if alpha.low == alpha.high else (alpha.low, alpha.high)
-
-
-def _bound_by_alpha(
-    scene: Scene,
-    sq: float,
-    speed: float,
-    alpha: float,
-    friction_parts: tuple[float, float],
-    *,
-    of_rubbing: float,
-    by_film: float | None,
-) -> float:
-    """Return a bound of the relative change of f, either way, by another pressure-viscosity coefficient ``alpha``
-    [1/Pa].
-
-    A larger one makes the film thicker, so that asperities carry less, and raises the shear stress of the film. These
-    two changes of f have opposite signs, so the larger one bounds what is left of them; which one is larger, closed
-    forms do not show. The shear is at most that of the closed form, unless that of the result is larger.
-    """
-    before = _parts(scene, sq, speed)
-    after = _parts(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), sq, speed)
-    f = friction_parts[1]
-    if not of_rubbing:
-        return abs(after[1] / before[1] - 1)
-    shares = [_within(parts[0] / of_rubbing) for parts in (before, after, friction_parts)]
-    thin, thick, there = shares
-    if by_film is None:
-        other = _within(math.exp(math.log(there) * math.log(thick) / math.log(thin)))
-    else:
-        log_of_film = math.log(math.log(thick) / math.log(thin)) / AIHARA_POWER
-        growth = math.log(alpha / scene.lubricant.pressure_viscosity_coefficient)
-        other = _with_load_ratio(there, by_film * log_of_film + LOAD_RATIO_BY_ALPHA * growth)
-    (guessed, changed, shear) = (
-        max(parts[1] - parts[0], 0.0) / (1 - share) for parts, share in zip((before, after, friction_parts), shares)
-    )
-    other_shear = min(shear * changed / guessed, max(changed, shear)) if guessed else shear
-    by_load = (of_rubbing - shear) * (other - there)
-    by_shear = (other_shear - shear) * (1 - there)
-    return max(abs(by_load), abs(by_shear)) / f
-
-
-def _within(share: float) -> float:
-    """Return the ``share`` of asperities or film of the load, not closer to 0 and 1 than `LEAST_SCALED_SHARE`."""
-    return min(max(share, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE)
-
-
-def _with_load_ratio(share: float, growth: float) -> float:
-    """Return the ``share`` s of asperities whose ln s/(1 - s) is larger by ``growth``."""
-    return 1.0 / (1.0 + (1.0 / share - 1.0) * math.exp(-growth))
-
-
-def _scaled(
-    f_b: float,
-    before: tuple[float, float],
-    after: tuple[float, float],
-    friction_parts: tuple[float, float],
-    *,
-    by_film: float | None,
-) -> tuple[float, float]:
-    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: the share
-    by Aihara's law with the λ that gives it there, or s/(1 - s) by the power ``by_film`` of λ; and mu in proportion."""
-    if not f_b:
-        return 0.0, after[1] / before[1] * friction_parts[1]
-    shares = [_within(parts[0] / f_b) for parts in (before, after, friction_parts)]
-    (guessed, changed, there) = (math.log(1 / share) for share in shares)
-    share = math.exp(-there * changed / guessed)
-    if by_film is not None:
-        log_of_film = math.log(changed / guessed) / AIHARA_POWER
-        share = _with_load_ratio(shares[2], by_film * log_of_film)
-    shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, friction_parts), shares)]
-    shear = shears[2] * shears[1] / shears[0] if shears[0] else 0.0
-    return f_b * share, f_b * share + shear * (1 - share)
-
-
-def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[float, float]:
-    """Return the friction [-] of asperities alone and of all, to some ten per cent, at so many ``times`` the expected
-    film."""
-    bodies = scene.bodies
-    ratio = scene.motion.slide_roll_ratio
-    of_rubbing = bodies.boundary_friction_coefficient if ratio != 0 else 0.0
-    if speed == 0:
-        return of_rubbing, of_rubbing
-    line = scene.line_contact(speed)
-    thickness = times * line.expected_film
-    b = line.half_width
-    share = math.exp(-AIHARA_FACTOR * (thickness / sq) ** AIHARA_POWER) if sq > 0 else 0.0
-    rise = math.sqrt(2 * line.radius * thickness)
-    begins = b + UPSTREAM * rise
-    if times < 1:
-        begins = min(begins, starved_inlet(times, math.sqrt(2 * line.radius * line.expected_film), b))
-    x = np.linspace(-begins, b + REYNOLDS_RUPTURE * rise, STRIP_NODES)
-    shape = line.load_per_width, line.radius, line.e_prime
-    least = math.hypot(smallest_film(thickness, rise, b), GAP_IN_CONTACT * sq)
-    gap = least + hertz.line_gap(x, *shape)
-    with np.errstate(over="ignore"):
-        pressure = hertz.line_pressure(x, *shape)
-        stress = shear_stress(scene.lubricant, pressure, abs(ratio * speed) / gap)
-    rolling = 6 * scene.lubricant.viscosity * abs(speed) * (1 / gap - max(thickness, least) / gap**2)
-    mu = float(np.trapezoid(np.minimum(stress, carried_stress(pressure)) + rolling, x)) / line.load_per_width
-    return of_rubbing * share, of_rubbing * share + mu * (1 - share)
-
-
-def expected_typical_heat(scene: Scene, sq: float, speed: float) -> float:
-    """Return the largest part of f that the heat of the film would take away at ``speed`` [m/s] if the viscosity fell
-    with the temperature as that of a typical oil, before f is known; ``sq`` [m]: of the surface. 0 where the lubricant
-    says how it falls."""
-    if speed == 0:
-        return 0.0
-    lost = typical_heat_of_even_film(scene, speed, scene.line_contact(abs(speed)).expected_film)
-    if not lost > 0:
-        return 0.0
-    of_boundary, f = _parts(scene, sq, speed)
-    f_b = scene.bodies.boundary_friction_coefficient
-    wet = 1.0 - (of_boundary / f_b if f_b else 0.0)
-    return min(wet * lost / f, 1.0)
 
 
 def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
