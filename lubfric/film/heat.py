@@ -122,14 +122,13 @@ def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
     n = x.size
     step = np.diff(x)
     behind = np.maximum(x[:, None] - x[None, :], 0.0)  # from a node to those upstream
-    far = behind[:, :-1]
-    near = behind[:, 1:]
-    root = 2 * (np.sqrt(far) - np.sqrt(near))
-    share = (far * root - 2 / 3 * (far**1.5 - near**1.5)) / step  # of the downstream end of each cell
+    roots = np.sqrt(behind)
+    powers = behind * roots
+    root = 2 * (roots[:, :-1] - roots[:, 1:])
+    share = (behind[:, :-1] * root - 2 / 3 * (powers[:, :-1] - powers[:, 1:])) / step  # of the cell's downstream end
     matrix = np.zeros((n, n))
-    upstream = np.tri(n, n - 1, -1, dtype=bool)
-    matrix[:, 1:] += np.where(upstream, share, 0.0)
-    matrix[:, :-1] += np.where(upstream, root - share, 0.0)
+    matrix[:, 1:] += np.tril(share, -1)
+    matrix[:, :-1] += np.tril(root - share, -1)
     return matrix / (np.sqrt(np.pi) * carried)
 
 

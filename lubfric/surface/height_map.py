@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import KW_ONLY, dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -100,7 +101,7 @@ class Surface(FrozenArrays, Shown):
         """The heights [m] of the measured points, one axis."""
         return self.heights.ravel() if self.mask is None else self.heights[self.mask]
 
-    @property
+    @cached_property
     def sq(self) -> float:
         """Root mean square height [m] about the mean, of the measured points."""
         return float(self.measured.std())

@@ -156,10 +156,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     shared: tuple[SharedWork, ...] = ()
     one_end = FILM_SECONDS * _times_by_heat(scene)
     if asperities != NONE_TOUCHES:
-        of_strips, shared = _work_of_strips(scene, sample, surface, film, count)
+        (of_strips, one_end, shared) = _work_of_strips(scene, sample, surface, film, count)
         seconds += of_strips
-        one_film = BALANCED_FILM * _times_by_heat(scene)
-        one_end = SOLVES_AT_END * (one_film + _strip_seconds(scene, sample, surface, film) * sample.first_strips)
     return WorkEstimate(
         strips=count,
         seconds=seconds,
@@ -218,9 +216,10 @@ def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float
 
 def _work_of_strips(
     scene: Scene, sample: Sample, surface: Surface, film: float, count: int
-) -> tuple[float, tuple[SharedWork, ...]]:
+) -> tuple[float, float, tuple[SharedWork, ...]]:
     """Return the processor time [s] of the balance on ``count`` strips of ``sample`` under an expected ``film`` [m],
-    and the parts of it that other points are spared: pieces, and the reference point."""
+    that of one end of an input range, and the parts of the former that other points are spared: pieces, and the
+    reference point."""
     sq = surface.sq
     (lx, ly) = sample.correlation_lengths
     cells = sample.cells
@@ -228,12 +227,14 @@ def _work_of_strips(
     shared: tuple[SharedWork, ...] = ()
     one_film = BALANCED_FILM * _times_by_heat(scene)
     is_smooth = is_smooth_over_cells(surface.heights)
-    times = _times_by_flattening(scene, surface, film)
+    rate = TIMES_BY_FLATTENING if is_smooth else TIMES_BY_FLATTENING_IF_ROUGH
+    times = 1 + rate * (1 - min(film / expected_gap(film, sq), 1.0)) * flattening(scene, sq)
     on_shorter = _times_by_shorter_cells(
         sample, film / expected_gap(film, sq), flattened=flattening(scene, sq), is_smooth=is_smooth
     )
-    strip = _strip_seconds(scene, sample, surface, film)
+    strip = times * CELL_SECONDS * cells.columns * sample.strip_length / cells.spacing[1]
     solved = sample.first_strips
+    one_end = SOLVES_AT_END * (one_film + strip * solved)
     work = SOLVES * (one_film + strip * solved)
     (first_growth, later_growth) = SAMPLE_GROWTH
     while solved < count:
@@ -257,21 +258,7 @@ def _work_of_strips(
         name = f"reference point at {reference} Sq on {cells.coarsening}"
         shared = (*shared, SharedWork(what=name, seconds=there, is_of_surface_alone=False))
         pieces_seconds *= OWN_PIECES
-    return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), shared
-
-
-def _times_by_flattening(scene: Scene, surface: Surface, film: float) -> float:
-    """Return the factor on the time of strips and pieces by how far the bodies flatten (`TIMES_BY_FLATTENING`)."""
-    touched = 1 - min(film / expected_gap(film, surface.sq), 1.0)
-    rate = TIMES_BY_FLATTENING if is_smooth_over_cells(surface.heights) else TIMES_BY_FLATTENING_IF_ROUGH
-    return 1 + rate * touched * flattening(scene, surface.sq)
-
-
-def _strip_seconds(scene: Scene, sample: Sample, surface: Surface, film: float) -> float:
-    """Return the processor time [s] of one strip each time that it is pressed together."""
-    cells = sample.cells
-    times = _times_by_flattening(scene, surface, film)
-    return times * CELL_SECONDS * cells.columns * sample.strip_length / cells.spacing[1]
+    return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), one_end, shared
 
 
 def _times_by_shorter_cells(sample: Sample, share: float, *, flattened: float, is_smooth: bool) -> float:

@@ -329,7 +329,7 @@ class QuickModel(Model):
     ) -> WorkEstimate:
         """Return what a point takes on long cells, and on joined strips by load sharing where these may answer as well;
         no work where another model answers in its place."""
-        alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
+        alone = cheaper or PaperModel().estimate_work(scene, sample, surface, speed, None)
         if why_gap_not_resolved(scene):
             return replace(alone, seconds=0.0, has_answer=False, shared=())
         is_named = scene.numerics.model == self.name
