@@ -81,7 +81,7 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     figures.head(figure, title)
     options.thin(figure)
     if not figures.fit_labels(figure):
-        figure.draw_without_rendering()
+        figures.lay_out(figure)
     figures.heighten(figure, LEAST_PANEL)
     figure.savefig(path)
 

@@ -51,11 +51,19 @@ SCENE = paper_scene(
 
 
 @pytest.fixture
-def figures(monkeypatch):
+def laid_out(monkeypatch):
     """The figures that are saved, in place of files."""
     saved = []
     monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: saved.append(figure))
     return saved
+
+
+@pytest.fixture
+def figures(laid_out, monkeypatch):
+    """The same for tests of what is drawn, wherever it is in the picture: nothing is laid out, which takes most of the
+    time."""
+    monkeypatch.setattr("lubfric._base.figures.lay_out", lambda figure: None)
+    return laid_out
 
 
 @pytest.fixture(scope="module")
@@ -324,7 +332,7 @@ def test_one_ratio_shows_its_temperatures(figures):
     assert all(line.get_marker() == "o" for line in figures[0].axes[-1].lines)
 
 
-def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
+def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(laid_out):
     x = np.linspace(-300e-6, 300e-6, 61)
     y = np.arange(12) * 10e-6
     pressure = np.repeat(np.where((x > -195e-6) & (x < 0), 2e6, 0.0)[:, None], 12, axis=1)
@@ -344,12 +352,12 @@ def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
     )
     contact = DrawnContact(speed=1.0, half_width=2e-5, fields=fields, has_film=False)
     plot_contact("x.png", contact)
-    low, high = figures[0].axes[0].get_xlim()
+    low, high = laid_out[0].axes[0].get_xlim()
     assert low == pytest.approx(-195, abs=1e-6) and high == pytest.approx(85, abs=1e-6)
-    figures[0].canvas.draw()
-    bar = next(axes for axes in figures[0].axes if axes.get_ylabel().startswith("gap"))
+    laid_out[0].canvas.draw()
+    bar = next(axes for axes in laid_out[0].axes if axes.get_ylabel().startswith("gap"))
     assert not any("times" in tick.get_text() for tick in bar.get_yticklabels(which="both"))
-    assert figures[0].axes[0].get_ylabel() == "y (µm)"  # shorter than its axis
+    assert laid_out[0].axes[0].get_ylabel() == "y (µm)"  # shorter than its axis
 
 
 def test_the_key_of_a_narrow_figure_has_few_rows():
@@ -458,7 +466,7 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
 
 
 @pytest.mark.parametrize(("rows", "is_deterministic"), [(16, True), (30, True), (16, False), (24, False)])
-def test_a_picture_of_a_wide_contact_is_not_blank(figures, rows, is_deterministic):
+def test_a_picture_of_a_wide_contact_is_not_blank(laid_out, rows, is_deterministic):
     """Panels and their labels fill the height: maps of 64 cells along x by 16, 24 and 30."""
     x = 1e-6 * (np.arange(64) - 31.5)
     field = 1e6 + np.random.default_rng(1).random((64, rows))
@@ -474,7 +482,7 @@ def test_a_picture_of_a_wide_contact_is_not_blank(figures, rows, is_deterministi
         "x.png",
         DrawnContact(speed=1.0, half_width=2e-5, fields=fields, has_film=not is_deterministic),
     )
-    (figure,) = figures
+    (figure,) = laid_out
     figure.draw_without_rendering()
     filled = np.zeros(1000, bool)
     for axes in figure.axes:
@@ -501,14 +509,14 @@ def kept(solved, tmp_path):
 
 
 @pytest.mark.parametrize("width", ["85 mm", "180 mm"])
-def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypatch, width):
+def test_a_contact_is_drawn_again_from_its_file(laid_out, solved, kept, monkeypatch, width):
     """With the same numbers, at the width of a journal's column, and all texts within it."""
     monkeypatch.setattr("lubfric.output.plot_again.made", lambda name, draw: draw(name) or b"a picture")
     assert main(["plot", str(kept), "--contact", "0.01", "--width", width, "--format", "pdf"]) == 0
     assert (kept / "contact_at_0.01.pdf").read_bytes() == b"a picture"
     plot_contact("x.png", drawn_contact(*solved))
-    (again, first) = figures
-    pictures = [figure.axes[0].images[0].get_array() for figure in figures]
+    (again, first) = laid_out
+    pictures = [figure.axes[0].images[0].get_array() for figure in laid_out]
     np.testing.assert_array_equal(*pictures)
     for label in ("counterface", "rough surface, deformed"):
         np.testing.assert_array_equal(data(again.axes[1], label), data(first.axes[1], label))
@@ -665,13 +673,14 @@ def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
     out = tmp_path / "out"
     main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])
+    plot = ["plot", str(out), "--panels", "friction"]
     for kind, begin in (("pdf", b"%PDF"), ("svg", b"<?xml")):
-        assert main(["plot", str(out), "--format", kind, "--width", "85 mm"]) == 0
+        assert main([*plot, "--format", kind, "--width", "85 mm"]) == 0
         assert (out / f"stribeck.{kind}").read_bytes().startswith(begin)
     assert b"/Type3" not in (out / "stribeck.pdf").read_bytes()  # letters that journals reject
     assert "friction coefficient" in (out / "stribeck.svg").read_text()  # letters, not their outlines
     for options, dots in ((["--width", "85 mm"], 300), (["--width", "85 mm", "--dpi", "600"], 600), ([], 150)):
-        assert main(["plot", str(out), *options]) == 0
+        assert main([*plot, *options]) == 0
         width = 85 / 25.4 if "--width" in options else 7.0
         assert int.from_bytes((out / "stribeck.png").read_bytes()[16:20], "big") == pytest.approx(width * dots, abs=1)
     assert (
@@ -738,7 +747,7 @@ def test_a_note_is_not_marked(figures):
     assert figures[0].get_supxlabel() == ""
 
 
-def test_a_long_title_lies_within_a_narrow_picture(figures):
+def test_a_long_title_lies_within_a_narrow_picture(laid_out):
     options = PictureOptions(width=0.085)
     plot_stribeck(
         "x.png",
@@ -747,7 +756,7 @@ def test_a_long_title_lies_within_a_narrow_picture(figures):
         [()] * 4,
         options=options,
     )
-    (figure,) = figures
+    (figure,) = laid_out
     figure.canvas.draw()
     box = figure._suptitle.get_window_extent()
     assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
