@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+import small_study
 from scene_text import paper_scene
 
 import lubfric
@@ -166,7 +167,7 @@ def test_info_shows_the_range_of_each_effect():
 @pytest.mark.parametrize("speed", [0.003, 0.03, 0.3])
 def test_no_report_contradicts_info(model, speed):
     """The changes of f that a result states are in the ranges that were stated before it, whatever the model."""
-    scene = paper_scene(numerics={"model": model, "sampling": "patch", "max_work": 200.0})
+    scene = small_study.SCENE.with_(numerics={"model": model})
     result = lubfric.friction(scene, speed)
     ranges = {each.what: (each.low, each.high) for each in expected_effects(scene, scene.surface.sq, speed)}
     for effect in result.unmodelled_effects:

@@ -7,6 +7,7 @@ import shlex
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
 from types import SimpleNamespace
 
@@ -35,9 +36,14 @@ def in_joint_region(found, values):
     return away @ np.linalg.solve(found.unit_covariance, away) / p <= f_distribution.ppf(0.95, p, n - p)
 
 
+@cache
+def true_coefficient(*speeds):
+    """Return f of `TRUTH`."""
+    return lubfric.stribeck(SCENE.with_keys(TRUTH), speeds, tolerance=2e-3).coefficient
+
+
 def made_up(seed, speeds=SPEEDS, noise=0.05):
-    scene = SCENE.with_(bodies={"boundary_friction_coefficient": 0.12}, lubricant={"viscosity": 0.2})
-    true = lubfric.stribeck(scene, speeds, tolerance=2e-3).coefficient
+    true = true_coefficient(*speeds)
     return lubfric.Measured(speeds, true * (1 + noise * np.random.default_rng(seed).normal(size=speeds.size)))
 
 
@@ -590,10 +596,15 @@ def counting_points(monkeypatch):
     return solved
 
 
+@cache
+def curve_of_scene():
+    return lubfric.stribeck(SCENE, SPEEDS)
+
+
 def least_squares_of_a_line(measured):
     """Return the f_b of f = f_b F_C/F_T + film with the least sum of squared relative deviations from ``measured``, and
     F_C/F_T."""
-    balanced = lubfric.stribeck(SCENE, SPEEDS)
+    balanced = curve_of_scene()
     share = balanced["contact_load"] / SCENE.bodies.load
     film = balanced.coefficient - SCENE.bodies.boundary_friction_coefficient * share
     relative = share / measured.coefficient

@@ -2,6 +2,7 @@
 data."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,9 +30,13 @@ def traction_scene(stress, limit):
     )
 
 
+@cache
+def true_coefficient(stress, limit):
+    return lubfric.traction(traction_scene(stress, limit), SLIPS, tolerance=2e-3).coefficient
+
+
 def measured_traction(stress, limit, seed, noise=0.02):
-    f = lubfric.traction(traction_scene(stress, limit), SLIPS, tolerance=2e-3).coefficient
-    f = f * (1 + noise * np.random.default_rng(seed).standard_normal(SLIPS.size))
+    f = true_coefficient(stress, limit) * (1 + noise * np.random.default_rng(seed).standard_normal(SLIPS.size))
     return lubfric.Measured(SLIPS, f, over="slide_roll_ratio")
 
 
