@@ -305,16 +305,13 @@ def _method(result: FitResult) -> list[str]:
     return [
         f"Bounded least squares of the residuals, computed minus measured f over {scale}, by a trust region.",
         search,
-        f"The fitted curve is solved at the fitted values: {models or 'model not known'} "
-        f"(numerics.model = {result.base.numerics.model!r}), relative tolerance on f "
-        f"{percent(result.tolerance)}{by_noise}.",
+        f"The fitted curve is solved at the fitted values: {models or 'model not known'} (numerics.model = "
+        f"{result.base.numerics.model!r}), relative tolerance on f {percent(result.tolerance)}{by_noise}.",
         f"The measured coefficients {rolling} rolling friction.",
         "Curves that differ in the boundary friction coefficient alone follow from one solved balance.",
         "The 95 % intervals follow from the slopes of f at the fit, with Student's t. Curves towards the ends of a "
-        "wide "
-        "interval, with the other parameters fitted again, show where the sum of squares exceeds its limit; a "
-        "parameter "
-        "without effect on f at the fit is varied up to its bounds.",
+        "wide interval, with the other parameters fitted again, show where the sum of squares exceeds its limit; a "
+        "parameter without effect on f at the fit is varied up to its bounds.",
     ]
 
 

@@ -63,10 +63,9 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         full_load = plain_number(float(result.full_load_film[thinnest]), "m")
         sentences.append(
             f"The full-load film is thinnest at t = {_moment(result, thinnest)}: {full_load}, a lambda ratio of "
-            f"{number_or_dash(float(result.lambda_ratio[thinnest]))}. "
-            "At the outputs in motion, the lambda ratio (full-load film thickness in steady motion over a Sq of "
-            f"{sq}) lies "
-            f"between {number_or_dash(float(ratio.min()))} and "
+            f"{number_or_dash(float(result.lambda_ratio[thinnest]))}. At the outputs in motion, the lambda ratio "
+            f"(full-load film thickness in steady motion over a Sq of {sq}) lies between "
+            f"{number_or_dash(float(ratio.min()))} and "
             f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
         )
     sentences.append(
@@ -160,9 +159,8 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     if not wide_by_model(scene, result).any():
         return answers
     return (
-        f"{answers} For a narrower interval of a moment, solve a steady point with its values "
-        "(a scene without [transient]); this helps where the deterministic model applies and heat causes less than "
-        "half of this error."
+        f"{answers} For a narrower interval of a moment, solve a steady point with its values (a scene without "
+        "[transient]); this helps where the deterministic model applies and heat causes less than half of this error."
     )
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -40,9 +40,6 @@ from .picture_options import LINES, PANELS, PictureOptions
 from .pictures import plot_history
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR
 from .study_pictures import plot_study, solved_so_far
-
-if TYPE_CHECKING:
-    pass
 
 AXIS_SCALES = ("linear", "log")  # of an axis
 

@@ -7,7 +7,7 @@ from argparse import Namespace
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .. import studies
 from .._base import read_table, validate
@@ -43,9 +43,6 @@ from .plot_again import measured_of
 from .progress import ProgressLine
 from .run_files import names_of_run
 from .swept_values import in_percent, parse_ratios, parse_speeds
-
-if TYPE_CHECKING:
-    pass
 
 WORTH = 8  # speeds from which a second process gains more than it costs; a choice: a process takes a second to start
 
@@ -253,9 +250,8 @@ def _write(
     }
     if points_read:
         unusual_values.append(
-            "wall-clock time of all points together, each as it was solved: "
-            f"{plain_number(curve.total_seconds, 's')}; points that the interrupted run had solved: {points_read} of "
-            f"{len(curve.points)}"
+            f"wall-clock time of all points together, each as it was solved: {plain_number(curve.total_seconds, 's')}; "
+            f"points that the interrupted run had solved: {points_read} of {len(curve.points)}"
         )
     folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, **of_record)
 

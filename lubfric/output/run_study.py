@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -49,9 +49,6 @@ from .study_pictures import STUDY_PICTURE, plot_study
 from .study_report import study_page, times_in_words
 from .study_warnings import tolerance_lines, warning_lines
 from .time_left import TimeLeft
-
-if TYPE_CHECKING:
-    pass
 
 
 def run_study(arguments: Namespace) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,9 +21,6 @@ from ..units import number_and_unit, number_of, numbers_of
 from .commands import (
     say,
 )
-
-if TYPE_CHECKING:
-    pass
 
 
 def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:

@@ -193,8 +193,7 @@ def _longest_in_words(longest: LongestContact) -> str:
         return load_in_words(bodies)
     return (
         f"the contact is longest at t = {worded(longest.time, 's')}, under {worded(bodies.load, 'N')} at a reduced "
-        "radius of "
-        f"{worded(bodies.radius, 'm')}, with a Hertz half-width of {worded(bodies.half_width, 'm')}"
+        f"radius of {worded(bodies.radius, 'm')}, with a Hertz half-width of {worded(bodies.half_width, 'm')}"
     )
 
 
@@ -235,8 +234,7 @@ def _ways_with_short_map(name: str) -> str:
     """Return what a scene may state if the map of its section ``name`` is too short."""
     return (
         f"{name}.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its "
-        "roughness "
-        "spread over the strip)"
+        "roughness spread over the strip)"
     )
 
 

@@ -216,8 +216,7 @@ class MeasuredStrips(Sample):
         return [
             *lines,
             f"Sq of the strips is {100 * abs(deviation):.2g} % {side} that of the map (a sample of this size differs "
-            "by up to "
-            f"{float(f'{100 * explained:.2g}'):g} % at 95 %)",
+            f"by up to {float(f'{100 * explained:.2g}'):g} % at 95 %)",
         ]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
@@ -253,11 +252,10 @@ class MeasuredStrips(Sample):
         lengths = (1e6 * count * self.surface.spacing[1] for count in (rows, len(windows) * self.surface.shape[1]))
         used, measured = (f"{length:.5g} µm" for length in lengths)
         note = (
-            f"{counted(len(windows), 'windows')} of {shape}, joined along y; {used} of their {measured} are used: "
-            "each window passes "
-            f"smoothly into the next one, and the last into the first, over {self._blend} cells, so that no edge "
-            "carries load, and the "
-            f"length is a whole multiple of {WINDOW_ROWS_MULTIPLE} cells of {1e6 * self.cells.spacing[1]:.3g} µm"
+            f"{counted(len(windows), 'windows')} of {shape}, joined along y; {used} of their {measured} are used: each "
+            f"window passes smoothly into the next one, and the last into the first, over {self._blend} cells, so that "
+            f"no edge carries load, and the length is a whole multiple of {WINDOW_ROWS_MULTIPLE} cells of "
+            f"{1e6 * self.cells.spacing[1]:.3g} µm"
         )
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 

@@ -231,8 +231,7 @@ def report_of(
         status = ITERATION_LIMIT
         summary = (
             f"all {plan.times.size} outputs are solved, but {worst.what} is {plain_number(worst.value)} times its "
-            "tolerance"
-            f"{worst.where and ' ' + worst.where}"
+            f"tolerance{worst.where and ' ' + worst.where}"
         )
         advice = worst.advice
     return Report(

@@ -288,8 +288,7 @@ def _violated(
             consequence="the grid of a run in time does not resolve the pressure spike, or the film is ruptured "
             "where it shears most",
             recommendation="set a tighter numerics.film_tolerance, or solve the steady point at the same speed "
-            "(lubfric.friction), which "
-            "resolves the spike",
+            "(lubfric.friction), which resolves the spike",
         )
     if row["contact_load"] > 0:
         yield from violations_by_deflection(scene, row["mean_gap"], STEADY_ONLY)

@@ -77,15 +77,13 @@ WITHIN_WORK = " within the work of a point"
 MORE_WORK = "set a larger numerics.max_work"
 ENDED_CELLS = (
     "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical "
-    "error above "
-    "numerics.tolerance"
+    "error above numerics.tolerance"
 )
 SMALLER_PATCH = "give a smaller patch (contact.shape)"
 PATCH_IN_PLACE = "use a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
     "shorter cells of {} would be more than {:.3g}, the largest number that is solved: the numerical error is twice "
-    "the estimate "
-    "from longer cells; {} to reduce it"
+    "the estimate from longer cells; {} to reduce it"
 )
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
@@ -398,9 +396,8 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
     if work > LONGEST_WORK:
         return (
-            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a "
-            "strip on the cells "
-            "of this map would take too long),"
+            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip "
+            "on the cells of this map would take too long),"
         )
     with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
     return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost})"
@@ -516,8 +513,7 @@ def violations_by_correction(by_summits: float, of_sample: float, f: float) -> I
             limit=100 * limit,
             unit="%",
             consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from "
-            "those of "
-            "the infinite surface; the sampling error is for the corrected f",
+            "those of the infinite surface; the sampling error is for the corrected f",
             recommendation="",
             is_note=True,
             effect=abs(by_summits),
@@ -569,8 +565,7 @@ def _violations(
     if share > MOST_GIVEN_OFF:
         consequence = (
             "almost no lubricant passes through the contact, and f changes by about 1 % with the assumed gap of 1 nm "
-            "between "
-            f"touching cells; the interval of f includes an error of {100 * ERROR_BY_GAP:g} % for this"
+            f"between touching cells; the interval of f includes an error of {100 * ERROR_BY_GAP:g} % for this"
         )
         yield Violation(
             assumption=Assumption.LUBRICANT_PASSES,

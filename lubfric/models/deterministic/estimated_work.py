@@ -639,6 +639,5 @@ def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[fl
     return (
         "not the deterministic model: the roughness moves, and one strip by the deterministic model would take about "
         f"{float(f'{work:.2g}'):g} s of counted work, more than {MOST_WORK_OF_POINT:g} s; set numerics.model = "
-        "'deterministic' "
-        "to solve it"
+        "'deterministic' to solve it"
     )

@@ -75,8 +75,7 @@ class PaperModel(Model):
             return f"{self.title} alone: {why}; its model-form error is not known and not in the interval"
         return (
             f"{self.title} alone where the film is thick or the surfaces are smooth; a point at which its model-form "
-            "error is above "
-            "numerics.model_tolerance, as may be in pure rolling, is solved by the next model"
+            "error is above numerics.model_tolerance, as may be in pure rolling, is solved by the next model"
         )
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:

@@ -26,8 +26,7 @@ OUTSIDE = (
 # The same where numerics.model = 'auto' chose this model.
 OUTSIDE_OF_CHOSEN = (
     "the cases on which the quick model is calibrated end there; its model-form error, which the interval of f "
-    "contains, is increased "
-    "for this, at most three times"
+    "contains, is increased for this, at most three times"
 )
 
 # The name of this model (`lubfric.models.quick.QuickModel.name`).

@@ -300,15 +300,13 @@ class QuickModel(Model):
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
         return (
             f"quick model (numerics.model): the deterministic model on {strips} with cells longer than its own (long "
-            "cells), and an error "
-            "calibrated on solved cases"
+            "cells), and an error calibrated on solved cases"
         )
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         return (
             "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its own "
-            "cells the deterministic model would take "
-            "too long"
+            "cells the deterministic model would take too long"
         )
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:

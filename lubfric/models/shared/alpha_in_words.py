@@ -52,8 +52,7 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
         return ""
     return (
         "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed "
-        "forms, "
-        f"that of measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
+        f"forms, that of measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
     )
 
 

@@ -340,9 +340,8 @@ def violations_by_deflection(
     if not change > STRIP_SHARE:
         return
     why = (
-        "only its own pressure deflects the film: at low speeds the film carries too much load, and f stays below "
-        "f_b; at other "
-        "speeds f may be too low or too high"
+        "only its own pressure deflects the film: at low speeds the film carries too much load, and f stays below f_b; "
+        "at other speeds f may be too low or too high"
     )
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
     yield Violation(
@@ -424,8 +423,7 @@ def violations_by_shear(
             limit=REFUSED_SHARE if severe else tolerance,
             unit="",
             consequence=f"no oil carries such stresses; {law} reaches {shear.stress_ratio:.2g} times this limit, and "
-            "gives the film "
-            f"a friction coefficient of {of_film:.2g}",
+            f"gives the film a friction coefficient of {of_film:.2g}",
             recommendation=recommendation,
             severe=severe,
             effect=share,
@@ -474,8 +472,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             limit=FAST_PECLET_NUMBER,
             unit="",
             consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too "
-            "high, and f is "
-            f"too low by at most {100 * heat.change:.2g} %, half of which its model-form error contains",
+            f"high, and f is too low by at most {100 * heat.change:.2g} %, half of which its model-form error contains",
             recommendation="set numerics.heat = 'off' to see the other bound of f",
             is_note=heat.change <= scene.numerics.model_tolerance,
             effect=heat.change,
@@ -495,13 +492,10 @@ def violations_by_typical_heat(scene: Scene, change: float, estimated: str = "")
             limit=100 * scene.numerics.tolerance,
             unit="%",
             consequence="heat is not included, because the scene does not state how the viscosity falls with the "
-            "temperature; the "
-            f"number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose viscosity falls "
-            "by "
-            f"{100 * coefficient:.2g} % per K{estimated and f'; {estimated}'}",
-            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); "
-            "set numerics.heat = "
-            "'off' to neglect heat without this warning",
+            f"temperature; the number is the largest effect on a typical oil at {temperature - CELSIUS:.0f} °C, whose "
+            f"viscosity falls by {100 * coefficient:.2g} % per K{estimated and f'; {estimated}'}",
+            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); set "
+            "numerics.heat = 'off' to neglect heat without this warning",
             effect=change,
         )
 

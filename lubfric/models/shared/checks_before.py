@@ -91,8 +91,7 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
     change."""
     return (
         f"sampling not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an "
-        "interval; "
-        f"{_ways_to_interval(scene, sample)}"
+        f"interval; {_ways_to_interval(scene, sample)}"
     )
 
 
@@ -122,12 +121,10 @@ def why_too_few_blocks(
     (along, across) = blocks
     return (
         "sampling not known: the surface that passes the contact has "
-        f"{counted(along * across, 'nearly independent blocks')} ({along} along the "
-        f"motion x {across} along y), and an interval needs {needed}; it is {size[0]:.3g} half-widths of the Hertz "
-        "strip long "
-        f"({worded(scene.bodies.half_width, 'm')} at this load; a block needs {size_of_block[0]:g}) and "
-        f"{size[1]:.3g} correlation "
-        f"lengths wide along y (a block needs {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
+        f"{counted(along * across, 'nearly independent blocks')} ({along} along the motion x {across} along y), and an "
+        f"interval needs {needed}; it is {size[0]:.3g} half-widths of the Hertz strip long "
+        f"({worded(scene.bodies.half_width, 'm')} at this load; a block needs {size_of_block[0]:g}) and {size[1]:.3g} "
+        f"correlation lengths wide along y (a block needs {size_of_block[1]:g}); {_ways_to_interval(scene, sample)}, "
         "or a map that is longer along the motion"
     )
 
@@ -238,9 +235,8 @@ def _violations_by_short_patch(scene: Scene, surface: Surface, whole: Surface) -
         value=1e6 * length,
         limit=1e6 * needed,
         unit="µm",
-        consequence=f"{cut}the contact of the rough surfaces is longer than the patch{longest}, which may cut off "
-        f"its ends; {refuses}; "
-        f"{others}",
+        consequence=f"{cut}the contact of the rough surfaces is longer than the patch{longest}, which may cut off its "
+        f"ends; {refuses}; {others}",
         recommendation=f"give {way_to_longer_patch(scene, surface)}",
     )
 
@@ -295,9 +291,8 @@ def violations_by_strips(deviation: float, explained: float) -> Iterator[Violati
             value=100 * abs(deviation),
             limit=100 * max(explained, LEAST_STRIP_DEVIATION),
             unit="%",
-            consequence=f"the solved strips are {'rougher' if deviation > 0 else 'smoother'} than the map by more "
-            "than their size "
-            "explains: the map has a form, or its roughness differs from place to place",
+            consequence=f"the solved strips are {'rougher' if deviation > 0 else 'smoother'} than the map by more than "
+            "their size explains: the map has a form, or its roughness differs from place to place",
             recommendation="remove the form (key form), or crop the map to the part that is in contact",
         )
 
@@ -443,8 +438,7 @@ SEPARATING = 3.0
 # What is added where the film may carry a part of the load alone.
 IF_ALL = (
     "this estimate is for a film that carries the total load; where asperities carry a part of it, the share is "
-    "smaller, and the "
-    f"result is refused only if the share is above {REFUSED_SHARE:g}"
+    f"smaller, and the result is refused only if the share is above {REFUSED_SHARE:g}"
 )
 
 # Limits that will be exceeded, each with the speed [m/s] at which it is; None: at all speeds.

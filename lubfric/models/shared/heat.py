@@ -172,10 +172,8 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
     if inlet.factor <= 0:
         raise InputError(
             f"heat of the inlet: thermal number eta0 beta U²/k = {inlet.thermal_number:.3g} at {abs(speed):.4g} m/s "
-            "gives no film by the "
-            f"factor of Gupta et al. (1992); allowed: up to about {MOST_THERMAL_LOADING:g}, or numerics.heat = 'off' "
-            "(speed, "
-            "viscosity, temperature_coefficient and their units?)"
+            f"gives no film by the factor of Gupta et al. (1992); allowed: up to about {MOST_THERMAL_LOADING:g}, or "
+            "numerics.heat = 'off' (speed, viscosity, temperature_coefficient and their units?)"
         )
     from scipy.optimize import newton
 
@@ -413,9 +411,8 @@ def heat_error_in_words(heat: Heat, by_inlet: float, tolerance: float, *, is_at_
     film = f"the change of f because the heat of the inlet makes the film {percent(1 - heat.film_factor)} thinner"
     largest = " (an upper bound: f inversely proportional to the film)" if is_at_most else ""
     return (
-        f"the model-form error by heat is {percent(within + inlet)}: {percent(within)}, half of the change of f by "
-        "the temperatures "
-        f"in the contact, and {percent(inlet)}, {half} {film}{largest}"
+        f"the model-form error by heat is {percent(within + inlet)}: {percent(within)}, half of the change of f by the "
+        f"temperatures in the contact, and {percent(inlet)}, {half} {film}{largest}"
     )
 
 

@@ -34,8 +34,7 @@ def limit_in_words(bounds: tuple[float, float]) -> str:
         return ""
     low, high = LIMIT_RANGE
     return (
-        "the shear stress of the film between the asperities is limited to f_b p, because the limiting stress of "
-        "the oil is not "
-        f"given: a limit of {low:g} p to {high:g} p changes f by {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} "
-        f"%; {GIVE_LIMIT}"
+        "the shear stress of the film between the asperities is limited to f_b p, because the limiting stress of the "
+        f"oil is not given: a limit of {low:g} p to {high:g} p changes f by {-100 * bounds[0]:+.2g} to "
+        f"{100 * bounds[1]:+.2g} %; {GIVE_LIMIT}"
     )

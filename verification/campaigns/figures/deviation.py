@@ -205,13 +205,10 @@ def _verdict(
         f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
         f"{smaller}. The likely cause: less pressure flattens a longer wave of the same height (E' Sq/L). So the "
         "summits on one hill share the load over a wider area, and the error of independent asperities is larger. "
-        "Other assumptions:\n\n"
-        "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* load at a given "
-        "gap, and d is negative.\n"
-        "- Contact patches grow together, and cannot carry more than some 50 to 120 MPa.\n"
-        "- With L read at 0.1 of the autocorrelation the surface is rougher and d is lower.\n"
-        "- Above some 300 MPa Newtonian shear is unrealistic. The base case assumes a Ree-Eyring film (5 MPa) with a "
-        "limit of 0.05 p, and Johnson's modulus.\n\n"
-        "Values beyond 60 % are in the table, not in the picture."
+        "Other assumptions:\n\n- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too "
+        "*little* load at a given gap, and d is negative.\n- Contact patches grow together, and cannot carry more than "
+        "some 50 to 120 MPa.\n- With L read at 0.1 of the autocorrelation the surface is rougher and d is lower.\n- "
+        "Above some 300 MPa Newtonian shear is unrealistic. The base case assumes a Ree-Eyring film (5 MPa) with a "
+        "limit of 0.05 p, and Johnson's modulus.\n\nValues beyond 60 % are in the table, not in the picture."
     )
     return agrees, differs

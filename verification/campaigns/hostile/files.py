@@ -42,8 +42,7 @@ def x3p(points: bytes = MAP.T.tobytes(), old: str = "", new: str = "") -> bytes:
         + axis.format("CX")
         + axis.format("CY")
         + "<CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes></Record1><Record3><MatrixDimension>"
-        "<SizeX>24</SizeX><SizeY>16</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bin/data.bin"
-        "</PointDataLink></DataLink></Record3></p:ISO5436_2>"
+        "<SizeX>24</SizeX><SizeY>16</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bin/data.bin</PointDataLink></DataLink></Record3></p:ISO5436_2>"
     )
     return archive({"main.xml": document.replace(old, new) if old else document, "bin/data.bin": points})
 
