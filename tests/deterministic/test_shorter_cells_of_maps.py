@@ -7,7 +7,12 @@ import lubfric
 from lubfric._base import count_work, limited_work
 from lubfric.estimate import estimated_work_of_point
 from lubfric.models.deterministic import ladder, pieces, shorter_cells
-from lubfric.models.deterministic.strip import cautious_changes, error_by_cells, expected_error_after
+from lubfric.models.deterministic.strip import (
+    cautious_changes,
+    error_by_cells,
+    error_of_patch,
+    expected_error_after,
+)
 
 SPEED = 0.03
 
@@ -104,6 +109,24 @@ def test_a_small_change_after_a_large_one_is_not_believed():
     (first, second, third) = (0.052, 0.003, 0.005)
     assert error_by_cells(cautious_changes([first, second]), 5) > third
     assert cautious_changes([first, 0.04]) == (first, 0.04)
+
+
+def test_a_change_of_a_patch_that_is_small_by_chance_does_not_make_its_error_small():
+    """Oracle: what is left of two errors of first and of second order and opposite sign, a/2^k - b/4^k on grid k."""
+    rest = 0.5 ** np.arange(4) - 4 / 3 * 0.25 ** np.arange(4)  # they cancel in the change from grid 1 to grid 2
+    changes = abs(np.diff(rest))
+    assert changes[1] < 1e-15
+    assert rest[2] < error_of_patch(changes[:2]) < 1.2 * rest[2]
+    rng = np.random.default_rng(0)
+    inside = []
+    for _ in range(500):
+        (a, b) = rng.uniform(0.02, 0.2, 2)
+        rest = a * 0.5 ** np.arange(12) - b * 0.25 ** np.arange(12)
+        changes = abs(np.diff(rest))
+        errors = [error_of_patch(changes[:k]) for k in range(1, 12)]
+        last = next(k for k, error in enumerate(errors) if error <= 2e-3)  # where the first within the tolerance is
+        inside.append(abs(rest[last + 1]) <= errors[last])
+    assert np.mean(inside) > 0.9  # where the last change alone counts: 0.76
 
 
 @pytest.mark.parametrize("speed", [0.003, 0.03])

@@ -10,11 +10,12 @@ from ...errors import ConvergenceError, TooManyCellsError, WorkLimitError
 from .pieces import Piece
 from .problem import are_soft
 from .strip import (
-    LEAST_RATIO_OF_PATCH,
     StripSolution,
     cautious_changes,
     changes_of,
+    changes_of_patch,
     error_by_cells,
+    error_of_patch,
     expected_error_after,
 )
 
@@ -170,9 +171,10 @@ def continued(
             coarsening = shorter
             spent += strip.work
             is_needed = tolerance == 0
-            by_cells = error_by_cells(changes_of(ladder), least_ratio=LEAST_RATIO_OF_PATCH)
             if has_end:
                 by_cells = error_by_cells(cautious_changes(changes_of(ladder)), max(left - 1, 1))
+            else:
+                by_cells = error_of_patch(changes_of_patch(ladder))
             error = max(by_cells, error_of_strip(strip))
     if end.is_failure:
         error *= UNSOLVED_FACTOR

@@ -28,7 +28,15 @@ from .ladder import (
 from .pieces import LENGTH_OF_LAST_PIECE, Piece, piece_on_quarter_cells, pieces_of_third_level
 from .problem import check_number_of_cells
 from .rough_bodies import map_of_contact
-from .strip import StripSolution, cautious_changes, changes_of, error_by_cells, solve_strip
+from .strip import (
+    StripSolution,
+    cautious_changes,
+    changes_of,
+    changes_of_patch,
+    error_by_cells,
+    error_of_patch,
+    solve_strip,
+)
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     halved,
@@ -146,10 +154,15 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     if has_moving_roughness(prepared.scene):
         cells = cells_of_strips(prepared, strips, by_longer)
         return ShorterCells(change=cells.change_of_sliding, error=max(cells.error, LEAST_STRIP_ERROR))
-    error = max(error_by_cells([by_longer]), error_of_strip(strips[0]))
+    is_patch = prepared.sample.refines_in_place
+    if is_patch:
+        by_cells = error_of_patch(changes_of_patch((pairs[0].longer, pairs[0].resolved)))
+    else:
+        by_cells = error_by_cells([by_longer])
+    error = max(by_cells, error_of_strip(strips[0]))
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
-    if prepared.sample.refines_in_place:
+    if is_patch:
         return _patch_on_shorter_cells(prepared, speed, pairs[0], error)
     try:
         third = _third_level(prepared, speed, pairs)

@@ -46,8 +46,9 @@ SECOND_LOAD = 1.03
 # the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
-# The least of these ratios on a patch, all of which is solved on every grid [-]. As measured: of 14 random patches f on
-# the cells of the map differed by more than the error with the ratio 1/4 on five, with this one on two.
+# The least of these ratios with which the changes of a patch go on, all of which is solved on every grid [-]. A choice:
+# with it the error covers f on the cells of the map in 143 of 146 solves of 109 random patches that end before these, at
+# tolerances of .5 to 4 %.
 LEAST_RATIO_OF_PATCH = 0.6
 
 # Ratio of successive changes from grid to grid of a single strip [-], below which the last may be small by chance. A
@@ -289,21 +290,36 @@ def line_contact_of(scene: Scene, speed: float) -> LineContact:
     return replace(scene.line_contact(abs(speed)), lubricant=film_lubricant(scene, speed))
 
 
-def error_by_cells(changes: Sequence[float], left: float = math.inf, *, least_ratio: float = CHANGE_RATIOS[0]) -> float:
+def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
     """Return the relative error of f on the last of several grids, each twice as fine as the one before, by its
     ``changes`` from grid to grid (`change_of`).
 
-    It is the geometric series of the last change, with the ratio q of the last two kept within ``least_ratio`` and 3/4
-    (0.6 from one change). ``left``: how often the cells can be halved until they are those that the answer is for. The
-    series ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential
-    surfaces under heavy loads the changes grow down to those cells.
+    It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
+    one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
+    ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential surfaces
+    under heavy loads the changes grow down to those cells.
     """
     before = changes[-2] if len(changes) > 1 else 0.0
     if math.isinf(left):
-        ratio = ratio_of_changes(changes[-1], before, (least_ratio, CHANGE_RATIOS[1]), UNKNOWN_RATIO)
+        ratio = ratio_of_changes(changes[-1], before, CHANGE_RATIOS, UNKNOWN_RATIO)
         return changes[-1] * (ratio / (1 - ratio))
     ratio = ratio_of_changes(2.0 * changes[-1], before, (CHANGE_RATIOS[0], GROWING), UNKNOWN_RATIO)
     return changes[-1] * sum(ratio ** (k + 1) for k in range(int(left)))
+
+
+def error_of_patch(changes: Sequence[float]) -> float:
+    """Return the relative error of f on the last of several grids, on each of which all of a patch is solved, by its
+    ``changes`` from grid to grid (`changes_of_patch`).
+
+    One of them may be small by chance, where effects of opposite sign cancel. So the last counts as the least ratio of
+    `CHANGE_RATIOS` times the one before at least, as if f converged with second order. The geometric series of it has
+    the ratio of both, from `LEAST_RATIO_OF_PATCH` to the largest of `CHANGE_RATIOS`; the largest from one change.
+    """
+    (least, most) = CHANGE_RATIOS
+    before = changes[-2] if len(changes) > 1 else 0.0
+    last = max(changes[-1], least * before)
+    ratio = ratio_of_changes(last, before, (LEAST_RATIO_OF_PATCH, most), most)
+    return last * ratio / (1 - ratio)
 
 
 def cautious_changes(changes: Sequence[float]) -> tuple[float, float]:
@@ -333,6 +349,14 @@ def expected_error_after(changes: Sequence[float], halvings: int, left: float = 
 def changes_of(strips: Sequence[StripSolution]) -> list[float]:
     """Return the `change_of` f from each of ``strips`` to the next."""
     return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
+
+
+def changes_of_patch(strips: Sequence[StripSolution]) -> list[float]:
+    """Return the `change_of` f from each of ``strips`` to the next, or that of f with twice the boundary film, relative
+    to it, where that is larger: effects that cancel by chance in one mean over the fields do not in the other."""
+    twice = [strip.result.at_twice_film for strip in strips]
+    others = [abs(1 - coarse / fine) for coarse, fine in zip(twice[:-1], twice[1:])]
+    return [max(both) for both in zip(changes_of(strips), others)]
 
 
 def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
