@@ -7,7 +7,14 @@ import numpy as np
 from ..models.shared import percent_or_less, sentence
 from ..quantities import counted
 from ..scene import Scene, moment_in_words
-from ..time import TransientResult, counts_in_average, in_motion, rolls, run_model_of
+from ..time import (
+    TransientResult,
+    counts_in_average,
+    in_motion,
+    intervals_to_zero,
+    rolls,
+    run_model_of,
+)
 from ..units import plain_number, with_interval, worded
 from .films_in_words import GAP_OF_TOUCHING, is_gap_of_touching
 from .markup import number_or_dash
@@ -79,9 +86,29 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
             f"The solved central separation lies between {number_or_dash(float(solved.min()))} and "
             f"{number_or_dash(float(solved.max()))} times Sq."
         )
+    if why := _why_to_zero(scene, result):
+        sentences.append(why)
     if result.start_in_words:
         sentences.append(result.start_in_words)
     return sentences
+
+
+def _why_to_zero(scene: Scene, result: TransientResult) -> str:
+    """Return at which outputs the interval of f reaches 0, by which part of its error, and what narrows it, in
+    sentences; "" where it does so nowhere."""
+    found = intervals_to_zero(scene, result)
+    if not found.outputs:
+        return ""
+    first, last = (_moment(result, index) for index in (found.outputs[0], found.outputs[-1]))
+    place = f"between t = {first} and {last}" if len(found.outputs) > 1 else f"t = {first}"
+    causes = "; ".join(
+        f"{cause} ({counted(count, 'outputs')})" if len(found.causes) > 1 else cause for cause, count in found.causes
+    )
+    ways = f" To narrow it, {', or '.join(found.ways)}." if found.ways else ""
+    return (
+        f"At {counted(len(found.outputs), 'outputs')}, {place}, the interval of f reaches 0, so f there is known to its "
+        f"order of magnitude at best; the largest part of its error is {causes}.{ways}"
+    )
 
 
 def _moment(result: TransientResult, index: int) -> str:

@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, percent, sentence
+from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, is_near_zero, percent, sentence
 from ..quantities import counted
 from ..scene import Numerics, Scene
 from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_study
 from ..time import TransientResult, counts_in_average
+from ..units import worded
 from .missed_tolerances import MissedTolerance, missed_tolerances
 from .operating_point import place_on_curve
 from .study_points import scene_of_each, violations_of_each
@@ -115,13 +116,16 @@ def _omitted_heat(violations: Iterable[Violation]) -> float:
     return next((each.effect for each in violations if each.assumption == Assumption.HEAT_INCLUDED), np.nan)
 
 
-def omitted_heat_in_words(changes: np.ndarray) -> list[str]:
-    """Return the `StatusOfPoints.omitted_heat` in a sentence; none where all are NaN."""
+def omitted_heat_in_words(
+    changes: np.ndarray, plural: str = "points", place: Callable[[int], str] = lambda index: f"at point {index + 1}"
+) -> list[str]:
+    """Return the `StatusOfPoints.omitted_heat` in a sentence; none where all are NaN. ``plural``: what the points are
+    called; ``place``: where one lies, as "at point 3"."""
     omitted = changes[np.isfinite(changes)]
     if not omitted.size:
         return []
-    where = "" if omitted.size == changes.size else f"at {omitted.size} of {changes.size} points "
-    worst = f" (at point {int(np.nanargmax(changes)) + 1})" if omitted.size > 1 else ""
+    where = "" if omitted.size == changes.size else f"at {omitted.size} of {changes.size} {plural} "
+    worst = f" ({place(int(np.nanargmax(changes)))})" if omitted.size > 1 else ""
     return [
         sentence(
             f"{where}f and its interval are without the heat of the film, which lowers f by up to "
@@ -211,7 +215,8 @@ def shortfalls(exceeded: Sequence[MissedTolerance], unknown: int, total: int, pl
 
 
 def missed_by_run(scene: Scene, result: TransientResult) -> list[str]:
-    """Return the errors of f that are above their tolerances at outputs of a run of ``scene``, in a sentence each."""
+    """Return the errors of f that are above their tolerances at outputs of a run of ``scene``, and the heat that f
+    omits, in a sentence each."""
     sentences = []
     named = set()
     for each in result.gathered:
@@ -229,9 +234,19 @@ def missed_by_run(scene: Scene, result: TransientResult) -> list[str]:
         sentences.append(
             f"At {counted(int(wide.sum()), 'outputs')} the model-form error of f is above "
             f"{100 * scene.numerics.model_tolerance:g} % (numerics.model_tolerance), up to "
-            f"{percent(float(result.uncertainty.model[wide].max()))}."
+            f"{_largest_in_words(result.coefficient[wide], result.uncertainty.model[wide])}."
         )
-    return sentences
+    heat = np.array([_omitted_heat(each) for each in result.violations])
+    return sentences + omitted_heat_in_words(heat, "outputs", lambda index: f"at t = {worded(result.time[index], 's')}")
+
+
+def _largest_in_words(f: np.ndarray, errors: np.ndarray) -> str:
+    """Return the largest of the relative ``errors`` of ``f`` as text, in f itself where it `is_near_zero`."""
+    near = np.array([is_near_zero(*pair) for pair in zip(f.tolist(), errors.tolist())])
+    words = [percent(float(errors[~near].max()))] if not near.all() else []
+    if near.any():
+        words.append(f"{float((errors * np.abs(f))[near].max()):.2g} in f itself where f is near 0")
+    return ", and up to ".join(words)
 
 
 def wide_by_model(scene: Scene, result: TransientResult) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, inputs_to_quote, methods_of
-from ..models.load_sharing import OF_ROLLING
+from ..models.load_sharing import OF_ROLLING, STATIONARY_ROLLING_RATIO
 from ..models.shared import (
     GatheredTexts,
     Prepared,
@@ -27,8 +27,8 @@ from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
-from .registry import run_model_of
-from .scene_in_time import value_at
+from .registry import may_move_roughness, run_model_of
+from .scene_in_time import roughness_moves, value_at
 from .transient_deterministic import REST
 
 if TYPE_CHECKING:
@@ -127,6 +127,7 @@ class TransientResult(Renamed, Shown):
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
     methods : names of the published methods used; ``cite()`` gives the publications
     stated_inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
+    most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
         if not known
@@ -148,6 +149,7 @@ class TransientResult(Renamed, Shown):
     model_form_unknown: str = ""
     methods: tuple[str, ...] = ()
     stated_inputs: tuple[str, ...] = ()
+    most_rolling_ratio: float = STATIONARY_ROLLING_RATIO
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this run, the model's first: one a line, or with ``format``
@@ -283,7 +285,7 @@ class TransientResult(Renamed, Shown):
             model_sides=np.stack(sides, axis=1),
             numerical=self.columns.get("shear_error", unknown),
             sampling=error,
-            interval=interval_in_time(self.columns, below, above),
+            interval=interval_in_time(self.columns, below, above, self.most_rolling_ratio),
             line_scatter=error * math.sqrt(self.line_length / self.width),
             effective_contacts=unknown,
             length=np.full(f.size, self.line_length),
@@ -359,10 +361,12 @@ def errors_in_time(
     }
 
 
-def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray) -> np.ndarray:
-    """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known
-    is not in it; NaN where sampling is not known, and at rest. Friction resists the sliding, so only the rolling part
-    makes the lower end negative."""
+def interval_in_time(
+    columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray, most_rolling_ratio: float
+) -> np.ndarray:
+    """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`, and as of
+    `TransientResult`. A part that is not known is not in it; NaN where sampling is not known, and at rest. Friction
+    resists the sliding, so only the rolling part makes the lower end negative."""
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
@@ -370,34 +374,49 @@ def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, i
     most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
     rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
-    by_rolling = np.minimum(np.minimum(OF_ROLLING * np.nan_to_num(rolling), f), 0.0)
+    by_rolling = np.minimum(np.minimum(most_rolling_ratio * np.nan_to_num(rolling), f), 0.0)
     least = np.where(columns["sliding_speed"] != 0, by_rolling, -most)
     ends = np.stack([np.maximum(f - below, least), np.minimum(f + above, most)], axis=1)
     return np.where(unknown[:, None], math.nan, ends)
 
 
-def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray]) -> np.ndarray:
+def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray], most_rolling_ratio: float) -> np.ndarray:
     """Return the largest |f| that the limits of the shear stress allow in ``scene`` at every time, (nt,)
-    (`lubfric.models.shared.largest_friction`)."""
-    sliding = np.abs(columns["sliding_speed"])
-    if scene.bodies.boundary_friction_table is not None:  # f_b changes with the motion
-        return np.full(sliding.size, math.inf)
+    (`lubfric.models.shared.largest_friction`); ``most_rolling_ratio``: as of `TransientResult`."""
+    sliding = columns["sliding_speed"]
     radii = [value_at(scene, "radius", scene.bodies.radius, time) for time in columns["time"]]
     moments = [
-        Sliding(load=load, radius=radius, speed=speed) for load, radius, speed in zip(columns["load"], radii, sliding)
+        Sliding(load=load, radius=radius, speed=speed)
+        for load, radius, speed in zip(columns["load"], radii, np.abs(sliding))
     ]
-    by_sliding = largest_of_each(scene, moments)
-    by_rolling = OF_ROLLING * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
+    if scene.bodies.boundary_friction_table is None:
+        by_sliding = largest_of_each(scene, moments)
+    else:  # f_b changes with the motion
+        by_sliding = [
+            largest_of_each(_with_boundary_friction(scene, speed), [moment])[0]
+            for moment, speed in zip(moments, sliding.tolist())
+        ]
+    by_rolling = most_rolling_ratio * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
     return np.array(by_sliding, float) + by_rolling
 
 
-def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[str, np.ndarray]:
+def _with_boundary_friction(scene: Scene, sliding: float) -> Scene:
+    """Return ``scene`` with the f_b that its table has at a ``sliding`` speed [m/s]."""
+    value = scene.bodies.boundary_friction(sliding, scene.lubricant.temperature)
+    return replace(
+        scene, bodies=replace(scene.bodies, boundary_friction_coefficient=value, boundary_friction_table=None)
+    )
+
+
+def _with_intervals(
+    columns: dict[str, np.ndarray], inputs: np.ndarray, most_rolling_ratio: float
+) -> dict[str, np.ndarray]:
     """Return ``columns`` with the intervals of f and of the power loss [W].
 
     The sliding part of the power has the interval of f, the rolling part the relative width of that interval, at most
     100 %. Friction takes power and gives none, so the interval of the power ends at 0.
     """
-    interval = interval_in_time(columns, *inputs)
+    interval = interval_in_time(columns, *inputs, most_rolling_ratio)
     f = columns["coefficient"]
     by_sliding = columns["load"] * np.abs(columns["sliding_speed"])
     rolling = columns["power_loss"] - columns["friction_force"] * columns["sliding_speed"]
@@ -452,9 +471,11 @@ def collect(
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"range of {name.partition('.')[2]}: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
-    columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns)
+    is_omitted = roughness_moves(prepared.scene) and not may_move_roughness(prepared.scene)
+    ratio = OF_ROLLING if is_omitted else STATIONARY_ROLLING_RATIO
+    columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns, ratio)
     return TransientResult(
-        columns=_with_intervals(columns, inputs),
+        columns=_with_intervals(columns, inputs, ratio),
         x=model.x,
         pressure=np.array([output.pressure for output in outputs]).reshape(shape),
         film_thickness=np.array([output.film_thickness for output in outputs]).reshape(shape),
@@ -465,6 +486,7 @@ def collect(
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,
+        most_rolling_ratio=ratio,
         requested=plan.times,
         model_form_unknown=model.model_form_unknown,
         methods=methods_of(prepared, _use(prepared, columns)),

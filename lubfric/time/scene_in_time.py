@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from ..errors import InputError
 from ..models.shared import film_lubricant, inlet_at
 from ..oil import Lubricant
-from ..scene import Bodies, Constant, History, Motion, Scene, Transient, sampled_times
+from ..scene import Bodies, Constant, History, Motion, Scene, Transient, moving_bodies, sampled_times
 
 Section = TypeVar("Section", Lubricant, Motion)
 
@@ -96,6 +96,12 @@ def surface_speed(scene: Scene, body: str, time: float) -> float:
     speed = value_at(scene, "speed", scene.motion.entrainment_speed, time)
     sliding = value_at(scene, "sliding", scene.motion.slide_roll_ratio * speed, time)
     return speed + SLIDING_PART[body] * sliding
+
+
+def roughness_moves(scene: Scene) -> bool:
+    """Return whether the roughness of a body moves at some time of a run."""
+    rough = [name for name, _ in moving_bodies(scene)]
+    return any(surface_speed(scene, name, time) for name in rough for time in sampled_times(scene))
 
 
 def value_at(scene: Scene, name: str, constant: float, time: float, side: str = "before") -> float:

@@ -6,14 +6,14 @@ import numpy as np
 
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
-from ..scene import Scene, moving_bodies, sampled_times
+from ..scene import Scene
 from .film_setting import TIME_SHARE, Setting
 from .load_sharing_solver import LoadSharingSolver, operator_to
 from .march import Progress
 from .model import Output
 from .moment import load_sharing_moment
 from .roughness_in_motion import way_to_motion_in_time
-from .scene_in_time import surface_speed, transient_of
+from .scene_in_time import roughness_moves, transient_of
 
 # Tolerances of the volume balance and of the contact over the largest local error of a step, at most [-]: what they
 # leave differs from step to step, and looks like an error in time that no shorter step reduces. docs/examples/cam.toml
@@ -62,10 +62,9 @@ class TransientLoadSharing(LoadSharingSolver):
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the result should know."""
-        rough = [name for name, _ in moving_bodies(self.scene)]
-        times = sampled_times(self.scene)
-        moving = any(surface_speed(self.scene, name, time) for name in rough for time in times)
-        return (f"{STANDS_STILL}; {way_to_motion_in_time(self.scene)}",) if moving else ()
+        if not roughness_moves(self.scene):
+            return ()
+        return (f"{STANDS_STILL}; {way_to_motion_in_time(self.scene)}",)
 
     def record(self, progress: Progress) -> Output:
         """Return the numbers and fields after the last step."""

@@ -74,3 +74,21 @@ def test_an_error_by_the_model_of_the_run_is_named_with_its_largest_value(run):
     wide = run.columns | {"model_error_low": np.full(run.time.size, 0.3), "model_error_high": np.zeros(run.time.size)}
     (text,) = missed_by_run(RUN, replace(run, violations=(), columns=wide))
     assert "model-form error of f is above 5 %" in text and "up to 30 %" in text
+
+
+def test_heat_that_f_omits_is_named_as_at_a_steady_point(run):
+    exact = run.columns | {f"model_error_{end}": np.zeros(run.time.size) for end in ("low", "high")}
+    heat = replace(above(Assumption.HEAT_INCLUDED, 20.0), effect=0.2)
+    violations = ((), (heat,), (replace(heat, effect=0.3),), *((),) * (run.time.size - 3))
+    (text,) = missed_by_run(RUN, replace(run, violations=violations, columns=exact))
+    assert text.startswith("At 2 of 5 outputs f and its interval are without the heat of the film")
+    assert text.endswith("by up to 30 % (at t = 500 µs).")
+
+
+def test_an_error_of_next_to_no_friction_is_stated_in_f(run):
+    """0.05 where f is 0.001 is no 5000 %."""
+    count = run.time.size
+    errors = {"model_error_low": np.full(count, 0.3), "model_error_high": np.r_[np.full(count - 1, 0.3), 50.0]}
+    f = {"coefficient": np.r_[np.full(count - 1, 0.1), 1e-3]}
+    (text,) = missed_by_run(RUN, replace(run, violations=(), columns=run.columns | errors | f))
+    assert "up to 30 %, and up to 0.05 in f itself where f is near 0" in text

@@ -178,10 +178,33 @@ def test_no_time_of_a_run_has_an_interval_beyond_the_limits_of_the_shear_stress(
         run = lubfric.transient(slow.with_(bodies={"boundary_friction_coefficient": friction}), [0.0, 1e-3])
         (low, high) = run.uncertainty.interval.T
         assert np.all(run.coefficient > 0.085) and np.all(run.coefficient <= high)
-        rolling = 8 * np.abs(run.rolling_force) / run.load
+        rolling = 2 * np.abs(run.rolling_force) / run.load  # the rough body is at rest
         np.testing.assert_allclose(run.largest_friction, most + rolling, rtol=1e-9)
         assert np.all(high <= run.largest_friction) and np.all(low < run.coefficient)
         np.testing.assert_array_equal(high, run.columns["interval_high"])
+
+
+@pytest.mark.parametrize(
+    ("boundary", "rolling", "sampling", "cause"),
+    [
+        (0.0, 0.002, 0.0, "pressure on the flanks of moving roughness"),
+        (0.008, 0.0, 0.0, "how film and asperities divide the load"),
+        (0.0, 0.0, 0.6, "is sampling. To narrow it, set a smaller numerics.sampling_tolerance"),
+    ],
+)
+def test_an_interval_that_reaches_zero_says_why(held, boundary, rolling, sampling, cause):
+    """f = 0.01 at a film of 1.5 Sq: flanks may add 8 times the rolling part, and a share of 0.08 may be all film."""
+    share = boundary / 0.1
+    model = 1.0 if boundary or rolling else 0.1
+    parts = {"boundary_force": boundary, "rolling_force": rolling, "couette_force": 0.01 - boundary - rolling}
+    of_f = {"coefficient": 0.01, "sampling_error": sampling, "model_error_low": model, "film_to_roughness_ratio": 1.5}
+    forces = {name: value * held.load for name, value in (parts | {"contact_load": share}).items()}
+    columns = held.columns | forces | {name: np.full(held.time.size, value) for name, value in of_f.items()}
+    scene = RUN.with_(motion={"slide_roll_ratio": 0.5})
+    run = replace(held, columns=columns, inputs=0.0)
+    assert np.all(run.uncertainty.interval[:, 0] == 0.0)
+    text = " ".join(history_answer.history_answer(scene, run, complete=True))
+    assert f"At 3 outputs, between t = 0 s and {3} ms, the interval of f reaches 0" in text and cause in text
 
 
 def test_the_largest_f_of_a_moment_does_not_depend_on_what_follows():

@@ -12,7 +12,14 @@
 
 from .balance import Balance, is_separated, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
-from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
+from .error_of_eq8 import (
+    OF_ROLLING,
+    STATIONARY_ROLLING_RATIO,
+    least_error,
+    load_sharing_error,
+    load_sharing_error_parts,
+    starved_error,
+)
 from .errors_of import moment_model_error, why_moment_unknown
 from .estimated_work import expected_gap, expected_model_error, flattening
 from .methods import methods_of_load_sharing

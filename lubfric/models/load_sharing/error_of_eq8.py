@@ -1,6 +1,7 @@
 """The error of f by the load-sharing model itself (docs/uncertainty.md)."""
 
 import math
+from dataclasses import dataclass
 
 from ..shared import Sides
 
@@ -22,6 +23,10 @@ MOST_OF_FILM = 0.3
 # Factor on the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen (`python -m
 # verification model --only rolling`).
 OF_ROLLING = 8.0
+
+# Largest rolling part of f over its value where no roughness moves: it bounds intervals. A choice: none was seen above
+# 1.
+STATIONARY_ROLLING_RATIO = 2.0
 
 # Error of f towards 0 and away from it, over the filled part of the gap, where a given film arrives (`starved_error`).
 # Measured by that command.
@@ -52,16 +57,53 @@ def load_sharing_error(
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
         return Sides(0.0, 0.0)
-    of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
-    of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
+    parts = load_sharing_error_parts(
+        film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=rolling
+    )
+    of_film = (parts.of_film + parts.of_flanks) / f
     if not 0 < share < 1:
         return Sides(of_film, of_film)
-    exchanged = (boundary / share - shear / (1 - share)) / f
-    rooms = (share, 1 - share)
-    of_share = OF_SHARE * math.sqrt(share * (1 - share))
-    towards, away = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
-    of_all = IN_CONTACT * math.sqrt(1 - share)
+    towards, away = (of_film + each / f for each in parts.of_share)
+    of_all = parts.in_contact
     return Sides(towards + max(1 - towards, 0.0) * of_all, away + of_all)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadSharingErrorParts:
+    """The parts of `load_sharing_error`, in f itself but for the last.
+
+    Attributes
+    ----------
+    of_share : by how film and asperities divide the load, towards 0 and away from it
+    of_film : by the shear of the film, as that of smooth surfaces
+    of_flanks : by the pressure on the flanks of moving roughness
+    in_contact : of all friction in contact, relative
+    """
+
+    of_share: Sides
+    of_film: float
+    of_flanks: float
+    in_contact: float
+
+
+def load_sharing_error_parts(
+    film_to_roughness_ratio: float, *, share: float, boundary: float, shear: float, rolling: float = 0.0
+) -> LoadSharingErrorParts:
+    """Return the parts of `load_sharing_error`, whose arguments these are; the ratio is finite."""
+    of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
+    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear)
+    if not 0 < share < 1:
+        return LoadSharingErrorParts(of_share=Sides(0.0, 0.0), of_film=of_film, of_flanks=of_flanks, in_contact=0.0)
+    exchanged = boundary / share - shear / (1 - share)
+    rooms = (share, 1 - share) if exchanged > 0 else (1 - share, share)
+    of_share = OF_SHARE * math.sqrt(share * (1 - share))
+    towards, away = (min(of_share, room) * abs(exchanged) for room in rooms)
+    return LoadSharingErrorParts(
+        of_share=Sides(towards, away),
+        of_film=of_film,
+        of_flanks=of_flanks,
+        in_contact=IN_CONTACT * math.sqrt(1 - share),
+    )
 
 
 def starved_error(inlet_film: float, gap: float) -> Sides:

@@ -284,14 +284,15 @@ def moment_model_error(
     """
     if why_moment_unknown(scene):
         return UNKNOWN_SIDES
+    sense = -1.0 if boundary + shear < 0 else 1.0  # towards 0 is towards less load on asperities where f is above 0
     sides = _error_of_shared_load(
         scene,
         film_to_roughness_ratio,
         share=share,
         is_shared=share > 0 and film_load > 0,
-        boundary=boundary,
-        shear=shear,
-        rolling=rolling,
+        boundary=sense * boundary,
+        shear=sense * shear,
+        rolling=sense * rolling,
     )
     return sides_of_parts(_parts_of_model(sides.capped(), by_heat))
 
