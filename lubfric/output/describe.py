@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, LubfricError
 from ..estimate import (
     NOT_MEASURED,
     FrictionResult,
@@ -50,7 +50,7 @@ from ..models.shared import (
 )
 from ..quantities import counted
 from ..samples import Sample, check_map, sample_of
-from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, sampled_times
+from ..scene import UNITS_OF_HISTORIES, Constant, Scene, has_moving_roughness, hint_unusual_values, sampled_times
 from ..studies import WITHIN_WORDS, expected_speeds, gaps_of, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import (
@@ -67,6 +67,7 @@ from ..time import (
     run_model_of,
     scene_at,
     speeds_of_run,
+    strip_of_run,
     way_to_motion_in_time,
 )
 from ..units import as_beside, converted, worded
@@ -106,6 +107,10 @@ COMMAND_SECONDS = 2.4
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
+# Processor time [s] of what a run solves before its first step, up to which `info` solves how many strips it has. A
+# choice: longer than that no one waits.
+MOST_START_SECONDS = 10.0
+
 # Relative difference of two speeds or slide-roll ratios that are the same but for rounding. A choice: any number
 # between rounding and a digit that a user writes does.
 SPEED_ROUNDING = 1e-9
@@ -183,7 +188,9 @@ def described_scene(
         surface = sample.stated_map()
         check_map(scene, surface, sample.maps_before_extension[0])
     work = WorkOfPoints(scene, sample, surface)
-    estimate = estimate_scene(scene, sample, surface, speeds, ratios, measures=measures, work=work)
+    estimate = estimate_scene(
+        scene, sample, surface, speeds, ratios, measures=measures, solves_strips=measures, work=work
+    )
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
     before, after = (
         [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
@@ -216,12 +223,14 @@ def estimate_scene(
     ratios: Sequence[float] = (),
     *,
     measures: bool = False,
+    solves_strips: bool = False,
     work: WorkOfPoints | None = None,
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
     speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them; ``measures``:
     where a strip of moving roughness takes more than `MEASURED_FROM`, its first steps in time are solved, and the
-    processor time follows from them; ``work``: the estimates of its points that are known."""
+    processor time follows from them; ``solves_strips``: how many strips a run in time has is solved, as the run does,
+    where that takes no longer than `MOST_START_SECONDS`; ``work``: the estimates of its points that are known."""
     work = work or WorkOfPoints(scene, sample, surface)
     measured = _measured_times(work, speeds) if measures and not len(ratios) else NOT_MEASURED
     scene_speed = scene.motion.entrainment_speed
@@ -246,7 +255,7 @@ def estimate_scene(
     if scene.transient is not None:
         run = estimated_run(scene, sample, surface)
         seconds = run.seconds
-        cost, lines = _course(scene, run, speeds)
+        cost, lines = _course(scene, run, _solved_strips(work, run) if solves_strips else None)
         changing = [cost, *_histories(scene), *lines]
     elif cost:
         model.append(f"cost: {cost}")
@@ -519,21 +528,40 @@ def _histories(scene: Scene) -> list[str]:
     return [*rows, f"start: {start}"]
 
 
-def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[str, list[str]]:
-    """Return the steps and the time of a run as text, and its sample as text; ``speeds`` [m/s]: some of it."""
+def _solved_strips(work: WorkOfPoints, run: RunEstimate) -> int | None:
+    """Return how many strips the ``run`` has, as it solves them before its first step; None where it has one, where that
+    takes long, or where it is not solved."""
+    if run.widest is None or run.start_seconds > MOST_START_SECONDS:
+        return None
+    try:
+        return strip_of_run(prepare_on_sample(work.scene, work.sample)).strips
+    except LubfricError:  # which the run will raise
+        return None
+
+
+def _course(scene: Scene, estimate: RunEstimate, strips: int | None) -> tuple[str, list[str]]:
+    """Return the steps and the time of a run as text, and its sample as text; ``strips``: how many it has, None where
+    they are estimated."""
     plan = scene.transient
     assert plan is not None
     lines = []
     if estimate.widest is not None:
         target = f"sampling error of f at 95 % at most {percent(student(math.inf) * scene.numerics.sampling_tolerance)}"
-        target += f" at {estimate.widest.speed:.3g} m/s"
-        lines = [f"sample: {counted(estimate.widest.strips, 'strips')} of the roughness, at all times ({target})"]
-    top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
+        target += f" in steady motion at {' to '.join(f'{end:.3g}' for end in _ends_of(speeds_of_run(scene)))} m/s"
+        known = f"about {counted(estimate.widest.strips, 'strips')}" if strips is None else counted(strips, "strips")
+        lines = [f"sample: {known} of the roughness, at all times ({target})"]
+    fastest = max(abs(end) for end in (plan.speed or Constant(scene.motion.entrainment_speed)).range(plan.duration))
+    top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
     course = (
         f"{plan.duration:.4g} s in about {float(f'{estimate.steps:.2g}'):.0f} steps, {counted(plan.outputs, 'outputs')}"
     )
     cost = f"about {in_words(estimate.seconds)} of processor time ({WITHIN_WORDS})"
     return f"{top}; {course}; {cost}", lines
+
+
+def _ends_of(speeds: list[float]) -> list[float]:
+    """Return the smallest and the largest of ``speeds`` [m/s], once if they are the same."""
+    return sorted({min(speeds, default=0.0), max(speeds, default=0.0)})
 
 
 def _speed_table(

@@ -23,7 +23,7 @@ from .file import (
     scene_from_table,
     write_template,
 )
-from .history import Constant, Harmonic, History, Ramp, Table
+from .history import Constant, Harmonic, History, Ramp, Table, horizon_of
 from .moments import LongestContact, longest_contact, sampled_times
 from .numerics import Numerics
 from .plausible import (

@@ -211,7 +211,7 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
     """Return the `Transient` of a scene, and the table without its histories.
 
     Histories are in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
-    plain value: the largest load, else the value at the start.
+    plain value: the largest load at any time, also after the end of the run, else the value at the start.
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
@@ -248,7 +248,7 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
         raise
     for name, (section, key) in places.items():
         if name in histories and name != "sliding" and key not in table.get(section, {}):
-            value = histories[name].range(plan.duration)[1] if name == "load" else histories[name].before(0.0)
+            value = histories[name].range(histories[name].horizon)[1] if name == "load" else histories[name].before(0.0)
             table.setdefault(section, {})[key] = value
     return table, plan
 

@@ -6,6 +6,7 @@ its range. `lubfric.scene.read_history` makes them from a scene file or a CSV fi
 
 import math
 from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,6 +40,16 @@ class History:
     def jumps(self, duration: float) -> tuple[float, ...]:
         """Return the times [s] at which the value jumps."""
         return ()
+
+    @property
+    def horizon(self) -> float:
+        """The time [s] after which nothing new follows: the end of the changes, or of the first period; 0 for none."""
+        return 0.0
+
+    @property
+    def period(self) -> float:
+        """The time [s] after which it repeats itself; infinite where it does not."""
+        return math.inf
 
     def range(self, duration: float) -> tuple[float, float]:
         """Return the smallest and largest value from 0 to ``duration`` [s]; here of a quantity that never turns."""
@@ -85,6 +96,14 @@ class Harmonic(History):
 
     def at(self, time: float) -> float:
         return self.mean + self.amplitude * math.sin(2.0 * math.pi * self.frequency * time + self.phase)
+
+    @property
+    def horizon(self) -> float:
+        return self.period
+
+    @property
+    def period(self) -> float:
+        return 1.0 / self.frequency
 
     def range(self, duration: float) -> tuple[float, float]:
         if self.frequency * duration >= 1.0:
@@ -181,8 +200,17 @@ class Table(History):
         every_time = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
         return tuple(every_time[(every_time >= 0.0) & (every_time < duration)].tolist())
 
+    @property
+    def horizon(self) -> float:
+        return self.times[-1]
+
+    @property
+    def period(self) -> float:
+        return self.times[-1] if self.repeat else math.inf
+
     def range(self, duration: float) -> tuple[float, float]:
-        inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]
+        is_whole = self.repeat and duration >= self.times[-1]
+        inside = [v for t, v in zip(self.times, self.values) if is_whole or 0.0 <= t <= duration]
         values = [*inside, self.at(0.0), self.before(duration)]
         return min(values), max(values)
 
@@ -217,6 +245,10 @@ class Ramp(History):
         share = min(max((time - self.begin) / (self.until - self.begin), 0.0), 1.0)
         return self.start + share * (self.end - self.start)
 
+    @property
+    def horizon(self) -> float:
+        return self.until
+
     def integral(self, time: float) -> float:
         passed = min(max(time - self.begin, 0.0), self.until - self.begin)
         ramp = self.until - self.begin
@@ -226,6 +258,14 @@ class Ramp(History):
     def stops(self, duration: float) -> tuple[float, ...]:
         """Return the two corners."""
         return tuple(t for t in (self.begin, self.until) if 0.0 < t < duration)
+
+
+def horizon_of(histories: Sequence[History], duration: float) -> float:
+    """Return the time [s] until which ``histories`` are looked through for what a run needs whatever its ``duration``
+    [s]: after it nothing new follows, unless histories of different periods meet otherwise, until the run ends."""
+    horizons = [history.horizon for history in histories]
+    periods = {history.period for history in histories if math.isfinite(history.period)}
+    return max(horizons, default=0.0) if len(periods) < 2 else max(duration, *horizons)
 
 
 def corners(times: np.ndarray, values: np.ndarray) -> list[float]:

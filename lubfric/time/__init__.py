@@ -34,6 +34,6 @@ from .result import (
 from .roughness_in_motion import way_to_motion_in_time
 from .run import raise_if_failed, run_in_time, transient
 from .scene_in_time import fastest_of_run, scene_at
-from .start import speeds_of_run
+from .start import speeds_of_run, strip_of_run
 from .transient_deterministic import make_deterministic, start_deterministic
 from .transient_load_sharing import STANDS_STILL, TransientLoadSharing

@@ -142,7 +142,7 @@ def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTim
     by_name: dict[str, list[tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]]] = {}
     for moment in moments:
         for effect in moment.effects:
-            by_name.setdefault(effect.what, []).append((moment, effect))
+            by_name.setdefault(effect.kind or effect.what, []).append((moment, effect))
     chosen: list[tuple[float, EffectOverTime]] = []
     for pairs in by_name.values():
         known = [pair for pair in pairs if math.isfinite(pair[1].largest_change)]

@@ -18,6 +18,7 @@ from ..models.shared import (
     below_and_above,
     gathered_on_curve,
     is_by_sliding,
+    is_near_zero,
     largest_of_each,
     percent,
     student,
@@ -457,7 +458,11 @@ def collect(
     }
     if not math.isnan(grid_error):
         residuals["grid"] = grid_residual(grid_error / model.scene.numerics.tolerance_of("film"))
-    sampling = float(np.max(columns["sampling_error"], initial=0.0))
+    near_zero = [
+        is_near_zero(*pair) for pair in zip(columns["coefficient"].tolist(), columns["sampling_error"].tolist())
+    ]
+    relative = columns["sampling_error"][~np.array(near_zero, bool)]  # of f near 0 it says nothing
+    sampling = float(np.max(relative, initial=0.0))
     surface = (
         "not known"
         if math.isnan(sampling)

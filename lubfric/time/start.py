@@ -176,22 +176,23 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class RunStrip:
-    """The strip of rough surface of a run: ``prepared`` has it as its surface; the other attributes as in
-    `TransientLoadSharing`."""
+    """The strip of rough surface of a run: ``prepared`` has it as its surface, which is ``strips`` of the sample joined;
+    the other attributes as in `TransientLoadSharing`."""
 
     prepared: Prepared
     correlation_length: float
     area: float = 1.0
     plastic: float = 1.0
+    strips: int = 1
 
 
 def strip_of_run(prepared: Prepared) -> RunStrip:
     """Return the strip of rough surface of a run.
 
     It has as many strips as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of
-    the run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these
-    speeds, or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the
-    speeds.
+    its histories, whatever its duration, or as memory and map allow. Their cells change f by no more than
+    ``numerics.tolerance`` at any of these speeds, or are the scene's own: a run in time is not corrected for them. The
+    factors of areas are means over the speeds.
     """
     sample = prepared.sample
     speeds = speeds_of_run(prepared.scene)
@@ -206,8 +207,10 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     while not sample.cells.is_native and max(need.by_cells for need in needs) > prepared.scene.numerics.tolerance:
         sample = sample.halved()
         needs = [_need_of(prepared, sample, speed) for speed in speeds]
+    count = min(max(need.strips for need in needs), sample.available_strips)
     return RunStrip(
-        prepared=_made(prepared, sample, min(max(need.strips for need in needs), sample.available_strips)),
+        prepared=_made(prepared, sample, count),
+        strips=count,
         correlation_length=sample.correlation_lengths[1],
         area=_mean([need.area for need in needs]),
         plastic=_mean([need.plastic for need in needs]),
@@ -222,9 +225,10 @@ def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
 
 
 def speeds_of_run(scene: Scene) -> list[float]:
-    """Return some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
-    transient = transient_of(scene)
-    low, high = (transient.speed or Constant(scene.motion.entrainment_speed)).range(transient.duration)
+    """Return some speeds [m/s] of the history of a run, whatever its duration, at which its strip is judged; none
+    where nothing is entrained."""
+    speed = transient_of(scene).speed or Constant(scene.motion.entrainment_speed)
+    low, high = speed.range(speed.horizon)
     fastest = max(abs(low), abs(high))
     if fastest == 0.0:
         return []

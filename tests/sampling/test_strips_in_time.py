@@ -8,9 +8,10 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.scene import Transient
+from lubfric.output import describe_scene, described_scene
+from lubfric.scene import Harmonic, Ramp, Table, Transient, horizon_of, longest_contact
+from lubfric.time import speeds_of_run, strip_of_run
 from lubfric.time.moment import film_load_exponent
-from lubfric.time.start import strip_of_run
 
 HELD = paper_scene(
     transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
@@ -129,3 +130,30 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     own = scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})
     assert run.coefficient[0] == pytest.approx(lubfric.friction(own).coefficient, rel=0.003)
     assert run.line_length == pytest.approx(scene.contact.shape[1] * spacing[1])
+
+
+WAVE = Table(times=(0.0, 0.01, 0.02), values=(0.05, 0.2, 0.05), repeat=True)
+PULSE = Table(times=(0.0, 0.01, 0.03), values=(2.0, 5.0, 3.0))
+
+
+def test_a_longer_run_has_the_same_strips():
+    """They follow from the histories, of which a run may see a part."""
+    durations = (1e-3, 1.5e-2, 3e-2)
+    runs = [HELD.with_(transient=Transient(duration, speed=WAVE, load=PULSE)) for duration in durations]
+    assert len({tuple(speeds_of_run(run)) for run in runs}) == len({longest_contact(run) for run in runs}) == 1
+    assert speeds_of_run(runs[0])[-1] == pytest.approx(0.2) and longest_contact(runs[0]).bodies.load == 5.0
+    assert [history.range(1e-3)[1] for history in (WAVE, PULSE)] == pytest.approx([0.065, 2.3])
+    assert WAVE.range(0.03) == pytest.approx(WAVE.range(WAVE.horizon)) == pytest.approx((0.05, 0.2))
+    other = Harmonic(frequency=30.0)
+    assert horizon_of((WAVE, PULSE), 1.0) == 0.03 and horizon_of((WAVE, other), 1.0) == 1.0
+    assert horizon_of((other, Ramp(until=0.1)), 1.0) == pytest.approx(0.1)
+
+
+def test_info_states_the_strips_that_the_run_has():
+    scene = HELD.with_(transient=Transient(1e-4, outputs=2), numerics={"sampling_tolerance": 0.02})
+    strips = strip_of_run(lubfric.prepare(scene)).strips
+    (by_info, by_text) = (
+        " ".join(text.split()) for text in (described_scene(scene, measures=True)[0], describe_scene(scene))
+    )
+    assert strips > 1 and f"sample: {strips} strips of the roughness, at all times" in by_info
+    assert "sample: about" in by_text

@@ -49,6 +49,17 @@ def test_an_effect_is_stated_where_it_changes_f_the_most_and_not_where_f_is_near
     ]
 
 
+def test_an_effect_with_the_numbers_of_its_moment_is_stated_once():
+    """The density at the peak pressure is another one at each moment."""
+    scene = paper_scene(bodies={"load": 600.0, "hardness": None}, lubricant={"density_law": "constant"})
+    moments = [
+        moment(1.0, 0.1, *unmodelled_effects(scene.with_(bodies={"load": load}), 1e-7, 0.1, (0.05, 0.1)))
+        for load in (300.0, 600.0)
+    ]
+    named = [each.effect for each in largest_over_time(moments) if each.effect.kind == "compressibility"]
+    assert len(named) == 1 and len({e.what for m in moments for e in m.effects if e.kind}) == 2
+
+
 def test_an_effect_that_is_not_estimated_is_that_of_the_highest_pressure():
     unknown = effect("cover", math.nan)
     moments = [moment(1.0, 0.1, unknown), moment(2.0, 0.1, unknown, pressure=2e8), moment(3.0, 0.1, unknown)]

@@ -85,12 +85,14 @@ class UnmodelledEffect:
     recommendation : what to do
     is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient: then the change is the largest one
         either way
+    kind : which effect it is, where ``what`` has numbers of the moment; "": ``what`` says so
     """
 
     what: str
     change: float
     recommendation: str
     is_of_alpha: bool = False
+    kind: str = ""
 
     @property
     def changes(self) -> tuple[float]:
@@ -114,7 +116,7 @@ class ExpectedEffect:
 
     Attributes
     ----------
-    what, recommendation, is_of_alpha : as of `UnmodelledEffect`
+    what, recommendation, is_of_alpha, kind : as of `UnmodelledEffect`
     low, high : lowest and highest change of f, relative [-]; NaN where they are not known
     """
 
@@ -123,6 +125,7 @@ class ExpectedEffect:
     high: float
     recommendation: str
     is_of_alpha: bool = False
+    kind: str = ""
 
     @property
     def changes(self) -> tuple[float, float]:
@@ -199,6 +202,7 @@ class _PossibleEffect:
     change: Callable[[FrictionParts | None], float | None]
     recommendation: str
     is_of_alpha: bool = False
+    kind: str = ""
 
     def at(self, result: FrictionParts | None) -> UnmodelledEffect | None:
         """Return the effect on a ``result``."""
@@ -206,7 +210,11 @@ class _PossibleEffect:
         if change is None:
             return None
         return UnmodelledEffect(
-            what=self.what, change=change, recommendation=self.recommendation, is_of_alpha=self.is_of_alpha
+            what=self.what,
+            change=change,
+            recommendation=self.recommendation,
+            is_of_alpha=self.is_of_alpha,
+            kind=self.kind,
         )
 
 
@@ -261,6 +269,7 @@ def expected_effects(
                     high=float(np.fmax.reduce(changes)),
                     recommendation=possible.recommendation,
                     is_of_alpha=possible.is_of_alpha,
+                    kind=possible.kind,
                 )
             )
     return _largest_first(effects, scene.numerics.tolerance)
@@ -347,6 +356,7 @@ def _compressibility(point: _Point) -> _PossibleEffect | None:
         ),
         change=point.change_to(point.scene, times=1.0 / density),
         recommendation="set lubricant.density_law = 'dowson-higginson'",
+        kind="compressibility",
     )
 
 
