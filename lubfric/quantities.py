@@ -19,7 +19,7 @@ T = TypeVar("T")  # float, or an array over operating points
 class Quantity(NamedTuple):
     """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
     none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know;
-    ``is_friction``: whether it is a part of the friction force, on the upper surface: positive against its sliding in
+    ``is_friction``: whether it is a part of the friction force, on surface 2: positive against its sliding in
     steady motion, and along -x in time.
 
     Of a number of a result, what changes it after its strips are solved, and where it is known:
@@ -344,7 +344,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "entrainment_speed": _OF_POINT["speed"],
     "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
     "load": Quantity("N", "total load", "F_T"),
-    "friction_force": Quantity("N", "tangential force on the upper surface"),
+    "friction_force": Quantity("N", "tangential force on surface 2"),
     **{name: q for name, q in QUANTITIES.items() if q.is_in_time},
     "sampling_error": OF_UNCERTAINTY["sampling"],
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),

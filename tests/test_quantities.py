@@ -73,7 +73,7 @@ def test_a_number_is_corrected_by_the_control_or_said_here_not_to_be():
 
 
 def test_a_force_is_a_load_a_part_of_friction_or_resists_the_entrainment():
-    """In time only parts of friction have the sign of the force on the upper surface: a new force says whether it is
+    """In time only parts of friction have the sign of the force on surface 2: a new force says whether it is
     one."""
     forces = {name for name, row in q.QUANTITIES.items() if row.unit == "N"}
     loads = {name for name in forces if name.endswith("_load")}

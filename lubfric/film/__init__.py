@@ -2,7 +2,7 @@
 
 There is one film, an `EHLResult`, and one solver: ``solve_line_contact(contact, effort, start=)`` for a
 `LineContact`, or `solve_ehl` for plain numbers. It covers all regimes, from rigid bodies and constant viscosity to
-heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force on the upper surface, with the rolling
+heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force on surface 2, with the rolling
 force that the film knows. The closed forms (`formulas`, `hertz`) are checks and starts.
 """
 

@@ -1,4 +1,4 @@
-"""Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
+"""Tangential force of the film on surface 2 (paper, Eqs. 10-12)."""
 
 import math
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from .elastic_shear import ElasticContact, elastic_shear
 
 @dataclass(frozen=True, kw_only=True)
 class ShearForce:
-    """Forces [N] on the upper surface, against its sliding over the lower one.
+    """Forces [N] on surface 2, against its sliding over surface 1.
 
     - ``couette``: from the difference of the surface speeds; ``rolling``: from the pressure gradient; ``total``: their
       sum, F_sh of Eq. (10).
@@ -28,7 +28,7 @@ class ShearForce:
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     - ``asperity_share``: of the friction of the asperities, the part that elastic shear of the discs leaves.
-    - ``sense``: 1, or -1 where the upper surface is the slower one, whose sliding the rolling part then helps.
+    - ``sense``: 1, or -1 where surface 2 is the slower one, whose sliding the rolling part then helps.
     """
 
     couette: float
@@ -69,7 +69,7 @@ def shear_force(
     heated: Callable[..., Any] | None = None,
     elastic: ElasticContact | None = None,
 ) -> ShearForce:
-    """Return F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
+    """Return F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at surface 2.
 
     ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of the width in contact, which carries no
     fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from where the lubricant

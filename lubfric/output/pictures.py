@@ -434,7 +434,7 @@ def plot_history(
 
 
 def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
-    """Draw the friction force on the upper surface over the times ``t`` of an axis, with the band of its intervals;
+    """Draw the friction force on surface 2 over the times ``t`` of an axis, with the band of its intervals;
     none at rest, where it may have any value up to that of the first slip."""
     moving = in_motion(c)
     unit = unit_for(c["friction_force"][moving].tolist(), "N")
@@ -443,7 +443,7 @@ def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> Non
         (first, second) = (converted(end, "N", unit) for end in ends)
         axes.fill_between(t, first, second, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
     force = np.where(moving, converted(c["friction_force"], "N", unit), np.nan)
-    axes.plot(t, force, color=figures.BLUE, lw=1.2, label="friction force on the upper surface, positive along −x")
+    axes.plot(t, force, color=figures.BLUE, lw=1.2, label="friction force on surface 2, positive along −x")
     axes.axhline(0.0, color=figures.GREY, lw=0.6)
     axes.set(ylabel=f"force ({printed(unit)})")
     figures.key_above(axes)

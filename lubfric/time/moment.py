@@ -79,7 +79,7 @@ class FrictionOfMoment:
     ----------
     sliding : sliding speed [m/s]
     sense : 1 or -1, the sense in which f is positive
-    boundary : friction force of the asperity contacts [N] on the upper surface, positive along -x
+    boundary : friction force of the asperity contacts [N] on surface 2, positive along -x
     shear : friction force of the film
     heat : of inlet, film and surfaces
     film_factor : factor on the film by the heat of its inlet; NaN: not known
@@ -94,7 +94,7 @@ class FrictionOfMoment:
 
     @property
     def force(self) -> float:
-        """The friction force [N] on the upper surface, positive along -x."""
+        """The friction force [N] on surface 2, positive along -x."""
         return self.boundary + self.shear.total
 
     def columns(self, load: float) -> dict[str, float]:
@@ -339,7 +339,7 @@ def contact_softness(contact: ContactOfMoment, solution: Step, width: float) -> 
 def film_shear(
     model: LoadSharingSolver, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
 ) -> tuple[ShearForce, Heat]:
-    """Return the forces [N] on the upper surface, positive along -x, and the heat of these and of the ``boundary``
+    """Return the forces [N] on surface 2, positive along -x, and the heat of these and of the ``boundary``
     friction [N].
 
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.

@@ -27,7 +27,7 @@ def motion_columns(
     """Return the columns of the moment that a run has reached, at which ``scene`` holds: its motion, its power loss,
     and the step that ended there.
 
-    ``sliding``: the sliding speed [m/s]; ``force``: the friction force [N] on the upper surface, positive along -x;
+    ``sliding``: the sliding speed [m/s]; ``force``: the friction force [N] on surface 2, positive along -x;
     ``rolling_resistance`` [N]: against the entrainment.
     """
     speed = scene.motion.entrainment_speed

@@ -105,7 +105,7 @@ class TransientResult(Renamed, Shown):
 
     Attributes
     ----------
-    columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface against
+    columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on surface 2 against
         its sliding over the lower one (in pure rolling: against its motion), over F_T; friction_force and its parts
         [N], positive along -x, against a motion along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from
         and wet_to [m], the ends of the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of
@@ -557,7 +557,7 @@ def rolls(c: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def sense_of_friction_over_time(c: dict[str, np.ndarray]) -> FloatArray:
-    """Return the sign of the friction force on the upper surface, which is positive along -x, at a positive
+    """Return the sign of the friction force on surface 2, which is positive along -x, at a positive
     coefficient, by the ``c`` of a `lubfric.TransientResult`."""
     speed = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     return np.where(speed < 0, -1.0, 1.0)

@@ -415,9 +415,7 @@ def test_a_history_is_drawn_by_its_table(figures):
     plot_history("x.png", columns | ends | force | of_f | {"power_loss": power}, "title")
     (*_, above, last, _) = figures[1].axes
     newtons = np.array([0.15, 0.3, 0.32])
-    np.testing.assert_allclose(
-        data(above, "friction force on the upper surface, positive along −x"), [[0, 10, 20], newtons]
-    )
+    np.testing.assert_allclose(data(above, "friction force on surface 2, positive along −x"), [[0, 10, 20], newtons])
     np.testing.assert_allclose(edges(above, "95 % interval, without model-form error"), [0.9 * newtons, 1.2 * newtons])
     assert above.get_ylabel() == "force (N)"
     np.testing.assert_allclose(data(last, "power loss"), [[0, 10, 20], [2, 5, 4]])

@@ -32,7 +32,7 @@ class Bodies:
 
     ``contact`` is the line contact under the total load F_T, on a line of length width (m). heights (nx, ny) in m are
     on the strip of ``compliance``. hardness is in Pa (inf: elastic), boundary_friction is f_b, and sliding is u2 - u1
-    in m/s. The shear acts on the upper surface 2.
+    in m/s. The shear acts on surface 2 2.
     """
 
     contact: ehl.LineContact
@@ -135,7 +135,7 @@ class SharedLoad:
 
     @property
     def shear(self) -> float:
-        """Force of the film on the upper surface in the direction in which it slides, N."""
+        """Force of the film on surface 2 in the direction in which it slides, N."""
         return math.copysign(1.0, self.couette) * (self.couette + self.rolling)
 
     @property
@@ -260,7 +260,7 @@ def cell_means(film: ehl.EHLSolution, edges: np.ndarray) -> np.ndarray:
 
 
 def shear(film: ehl.EHLSolution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
-    """Return (Couette, rolling) force on the upper surface in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
+    """Return (Couette, rolling) force on surface 2 in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
 
     Each is taken times the lubricated share ``wet`` of the cells between ``edges`` (1 outside). The first goes up to
     the rupture, where the film is that of the flow. Both come from far upstream, where the gap is a parabola.
