@@ -143,7 +143,8 @@ def test_a_longer_run_has_the_same_strips():
     assert len({tuple(speeds_of_run(run)) for run in runs}) == len({longest_contact(run) for run in runs}) == 1
     assert speeds_of_run(runs[0])[-1] == pytest.approx(0.2) and longest_contact(runs[0]).bodies.load == 5.0
     assert [history.range(1e-3)[1] for history in (WAVE, PULSE)] == pytest.approx([0.065, 2.3])
-    assert WAVE.range(0.03) == pytest.approx(WAVE.range(WAVE.horizon)) == pytest.approx((0.05, 0.2))
+    for until in (WAVE.horizon, 0.03):
+        assert WAVE.range(until) == pytest.approx((0.05, 0.2))
     other = Harmonic(frequency=30.0)
     assert horizon_of((WAVE, PULSE), 1.0) == 0.03 and horizon_of((WAVE, other), 1.0) == 1.0
     assert horizon_of((other, Ramp(until=0.1)), 1.0) == pytest.approx(0.1)
