@@ -207,24 +207,26 @@ def test_an_interval_that_reaches_zero_says_why(held, boundary, rolling, samplin
     assert f"At 3 outputs, between t = 0 s and {3} ms, the interval of f reaches 0" in text and cause in text
 
 
-def test_asperities_that_may_carry_more_take_a_negative_f_above_zero():
-    """A hundredth of the load on asperities, f_b 0.12, and a rolling part of -0.0015: f = -0.0003 may have 0.7 sqrt(s
-    (1 - s)) more of the load on asperities, and no less than none."""
+@pytest.mark.parametrize("boundary", [0.0014, 0.0016])
+def test_the_ends_of_f_are_continuous_where_it_changes_its_sign(boundary):
+    """A hundredth of the load on asperities, f_b 0.14 or 0.16, and a rolling part of -0.0015: f = -0.0001 or 0.0001 may
+    have 0.7 sqrt(s (1 - s)) more of the load on asperities, and no less than none."""
     share = 0.01
-    exchanged = 0.12 + 0.0015 / (1 - share)
-    ends = [-share * exchanged, 0.7 * math.sqrt(share * (1 - share)) * exchanged]
+    f = boundary - 0.0015
+    exchanged = boundary / share + 0.0015 / (1 - share)
     sides = moment_model_error(
         paper_scene().with_(transient=Transient(1e-3)),
         film_to_roughness_ratio=100.0,
         share=share,
         film_load=1.0,
-        boundary=0.0012,
+        boundary=boundary,
         shear=-0.0015,
         rolling=-0.0015,
         by_heat=0.0,
     )
-    below, above = sides.below_and_above(-0.0003)
-    assert (0.0003 * below, 0.0003 * above) == pytest.approx((-ends[0], ends[1]), abs=1e-4)
+    below, above = sides.below_and_above(f)
+    expected = (share * exchanged, 0.7 * math.sqrt(share * (1 - share)) * exchanged)
+    assert (abs(f) * below, abs(f) * above) == pytest.approx(expected, abs=1e-4)
 
 
 def test_the_largest_f_of_a_moment_does_not_depend_on_what_follows():

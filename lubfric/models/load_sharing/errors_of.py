@@ -284,7 +284,7 @@ def moment_model_error(
     """
     if why_moment_unknown(scene):
         return UNKNOWN_SIDES
-    # Where f is below 0, by rolling, more load on asperities leads towards 0, and beyond it.
+    # where f is below 0, by rolling, more load on asperities leads towards 0
     sense = -1.0 if boundary + shear < 0 else 1.0
     sides = _error_of_shared_load(
         scene,
@@ -295,7 +295,8 @@ def moment_model_error(
         shear=sense * shear,
         rolling=sense * rolling,
     )
-    return sides_of_parts(_parts_of_model(sides.capped() if sense > 0 else sides, by_heat))
+    # only a rolling part that helps the sliding takes f beyond 0
+    return sides_of_parts(_parts_of_model(sides.capped() if rolling >= 0 else sides, by_heat))
 
 
 def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart, ...]:
