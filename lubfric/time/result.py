@@ -417,7 +417,8 @@ def _with_intervals(
     The sliding part of the power has the interval of f, the rolling part the relative width of that interval, at most
     100 %. Friction takes power and gives none, so the interval of the power ends at 0.
     """
-    interval = interval_in_time(columns, *inputs, most_rolling_ratio)
+    inputs_below, inputs_above = inputs
+    interval = interval_in_time(columns, inputs_below, inputs_above, most_rolling_ratio)
     f = columns["coefficient"]
     by_sliding = columns["load"] * np.abs(columns["sliding_speed"])
     rolling = columns["power_loss"] - columns["friction_force"] * columns["sliding_speed"]

@@ -17,6 +17,7 @@ from lubfric.models.load_sharing import MomentResponse, moment_model_error
 from lubfric.output import describe_scene, history_answer, main
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.time import PARTS_NOT_IN_TIME
+from lubfric.time.result import largest_friction_in_time
 
 SMALL = {"shape": (48, 48), "spacing": 1.8e-6}
 # A coarse film, where its numbers are not the matter.
@@ -227,6 +228,18 @@ def test_the_ends_of_f_are_continuous_where_it_changes_its_sign(boundary):
     below, above = sides.below_and_above(f)
     expected = (share * exchanged, 0.7 * math.sqrt(share * (1 - share)) * exchanged)
     assert (abs(f) * below, abs(f) * above) == pytest.approx(expected, abs=1e-4)
+
+
+def test_the_largest_f_with_a_table_of_f_b_is_that_of_the_sliding_speed_of_the_moment():
+    """f_b falls from 0.15 to 0.05 between 0 and 1 m/s, and the stress of the oil is limited to f_b p."""
+    table = {"sliding_speed": [0, 1], "values": [0.15, 0.05]}
+    plan = Transient(1.0, sliding=Ramp(start=0.2, end=-0.8, until=1.0))
+    scene = paper_scene(
+        bodies={"boundary_friction_coefficient": table}, lubricant={"limiting_stress_coefficient": "f_b"}
+    ).with_(transient=plan)
+    columns = {"time": np.array([0.0, 1.0]), "sliding_speed": np.array([0.2, -0.8]), "load": np.full(2, 5.0)}
+    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.array([0.0, -0.01])}, 2.0)
+    np.testing.assert_allclose(largest, [0.13, 0.07 + 2 * 0.01 / 5.0])
 
 
 def test_the_largest_f_of_a_moment_does_not_depend_on_what_follows():
