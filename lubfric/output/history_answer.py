@@ -96,17 +96,17 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
 def _why_to_zero(scene: Scene, result: TransientResult) -> str:
     """Return at which outputs the interval of f reaches 0, by which part of its error, and what narrows it, in
     sentences; "" where it does so nowhere."""
-    found = intervals_to_zero(scene, result)
-    if not found.outputs:
+    reached = intervals_to_zero(scene, result)
+    if not reached.outputs:
         return ""
-    first, last = (_moment(result, index) for index in (found.outputs[0], found.outputs[-1]))
-    place = f"between t = {first} and {last}" if len(found.outputs) > 1 else f"t = {first}"
+    first, last = (_moment(result, index) for index in (reached.outputs[0], reached.outputs[-1]))
+    place = f"between t = {first} and {last}" if len(reached.outputs) > 1 else f"t = {first}"
     causes = "; ".join(
-        f"{cause} ({counted(count, 'outputs')})" if len(found.causes) > 1 else cause for cause, count in found.causes
+        f"{cause} ({counted(count, 'outputs')})" if len(reached.causes) > 1 else cause for cause, count in reached.causes
     )
-    ways = f" To narrow it, {', or '.join(found.ways)}." if found.ways else ""
+    ways = f" To narrow it, {', or '.join(reached.ways)}." if reached.ways else ""
     return (
-        f"At {counted(len(found.outputs), 'outputs')}, {place}, the interval of f reaches 0, so f there is known to its "
+        f"At {counted(len(reached.outputs), 'outputs')}, {place}, the interval of f reaches 0, so f there is known to its "
         f"order of magnitude at best; the largest part of its error is {causes}.{ways}"
     )
 

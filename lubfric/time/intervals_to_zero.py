@@ -17,14 +17,14 @@ BY_SAMPLING = "sampling"
 BY_INPUT = "the range of f_b"
 BY_NUMERICAL = "the sum of the film's shear stress"
 BY_SHARE = "model-form: how film and asperities divide the load"
-BY_FILM = "model-form: the shear of the film between rough surfaces"
+BY_FILM_SHEAR = "model-form: the shear of the film between rough surfaces"
 BY_FLANKS = "model-form: pressure on the flanks of moving roughness"
 BY_CONTACT = "model-form: the friction in contact"
 BY_HEAT_OF_MODEL = f"model-form: {BY_HEAT}"
 
 # What narrows the interval where each of these parts is the largest, as text.
 STEADY_DETERMINISTIC = "solve a steady point with the values of the moment and numerics.model = 'deterministic'"
-WAYS = {
+WAYS_FROM_ZERO = {
     BY_SAMPLING: "set a smaller numerics.sampling_tolerance",
     BY_INPUT: "give a measured boundary friction coefficient",
     BY_NUMERICAL: "set a smaller numerics.film_tolerance",
@@ -48,7 +48,9 @@ class IntervalsToZero:
     @property
     def ways(self) -> tuple[str, ...]:
         """What narrows the intervals, each once, as text."""
-        return tuple(dict.fromkeys(filter(None, (WAYS.get(cause, STEADY_DETERMINISTIC) for cause, _ in self.causes))))
+        return tuple(
+            dict.fromkeys(filter(None, (WAYS_FROM_ZERO.get(cause, STEADY_DETERMINISTIC) for cause, _ in self.causes)))
+        )
 
 
 def intervals_to_zero(scene: Scene, result: TransientResult) -> IntervalsToZero:
@@ -95,7 +97,7 @@ def _parts_of_model(scene: Scene, result: TransientResult, index: int, model: fl
     )
     known = {
         BY_SHARE: errors.of_share.towards,
-        BY_FILM: errors.of_film,
+        BY_FILM_SHEAR: errors.of_film,
         BY_FLANKS: errors.of_flanks,
         BY_CONTACT: errors.in_contact * abs(float(result.coefficient[index])),
     }

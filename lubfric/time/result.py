@@ -9,7 +9,7 @@ import numpy as np
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, inputs_to_quote, methods_of
-from ..models.load_sharing import OF_ROLLING, STATIONARY_ROLLING_RATIO
+from ..models.load_sharing import OF_ROLLING, OF_SHARE, STATIONARY_ROLLING_RATIO, least_error
 from ..models.shared import (
     GatheredTexts,
     Prepared,
@@ -398,7 +398,32 @@ def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray], most_
             for moment, speed in zip(moments, sliding.tolist())
         ]
     by_rolling = most_rolling_ratio * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
-    return np.array(by_sliding, float) + by_rolling
+    largest = np.array(by_sliding, float)
+    if not run_model_of(scene).solves_rough_film:
+        largest = _beside_asperities(largest, _largest_boundary_friction(scene, sliding), columns)
+    return largest + by_rolling
+
+
+def _beside_asperities(largest: np.ndarray, boundary: np.ndarray, columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the ``largest`` sliding part of f (nt,) where asperities carry a part of the load at no more than
+    ``boundary`` = f_b (nt,): of the film's largest friction only the part counts that the film may carry by the
+    model-form error of the asperity load ratio."""
+    share = columns["contact_load"] / columns["load"]
+    ratios = columns["film_to_roughness_ratio"]
+    least = np.array([least_error(ratio) for ratio in ratios.tolist()])
+    by_film = np.minimum(
+        1.0 - share + np.maximum(OF_SHARE * np.sqrt(share * np.clip(1.0 - share, 0.0, 1.0)), least), 1.0
+    )
+    is_shared = (share > 0) & np.isfinite(largest) & (largest > boundary)
+    return np.where(is_shared, boundary + (np.where(is_shared, largest, 0.0) - boundary) * by_film, largest)
+
+
+def _largest_boundary_friction(scene: Scene, sliding: np.ndarray) -> np.ndarray:
+    """Return f_b at each ``sliding`` speed [m/s] (nt,), at the upper end of its range if it has one."""
+    ends = [most for name, _, most in scene.ranges if name == BOUNDARY_FRICTION_KEY]
+    bodies = scene.bodies
+    values = [ends[0] if ends else bodies.boundary_friction(at, scene.lubricant.temperature) for at in sliding.tolist()]
+    return np.array(values, float)
 
 
 def _with_boundary_friction(scene: Scene, sliding: float) -> Scene:

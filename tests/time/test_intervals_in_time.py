@@ -230,6 +230,17 @@ def test_the_ends_of_f_are_continuous_where_it_changes_its_sign(boundary):
     assert (abs(f) * below, abs(f) * above) == pytest.approx(expected, abs=1e-4)
 
 
+def test_of_the_largest_friction_of_the_film_only_its_part_of_the_load_counts():
+    """f_b is 0.09 on asperities that carry 0, 0.5 and 0.99 of the load; the film may have 0.7 sqrt(s (1 - s)) more of
+    it than Eq. (8) says, and at least a tenth."""
+    scene = paper_scene(bodies={"boundary_friction_coefficient": 0.09}).with_(transient=Transient(1.0))
+    columns = {"time": np.zeros(3), "sliding_speed": np.full(3, 0.1), "load": np.full(3, 5.0)}
+    columns |= {"contact_load": np.array([0.0, 2.5, 4.95]), "film_to_roughness_ratio": np.full(3, 2.0)}
+    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.zeros(3)}, 2.0)
+    assert largest[0] > 0.09
+    np.testing.assert_allclose((largest - 0.09) / (largest[0] - 0.09), [1.0, 0.85, 0.11])
+
+
 def test_the_largest_f_with_a_table_of_f_b_is_that_of_the_sliding_speed_of_the_moment():
     """f_b falls from 0.15 to 0.05 between 0 and 1 m/s, and the stress of the oil is limited to f_b p."""
     table = {"sliding_speed": [0, 1], "values": [0.15, 0.05]}
@@ -238,6 +249,7 @@ def test_the_largest_f_with_a_table_of_f_b_is_that_of_the_sliding_speed_of_the_m
         bodies={"boundary_friction_coefficient": table}, lubricant={"limiting_stress_coefficient": "f_b"}
     ).with_(transient=plan)
     columns = {"time": np.array([0.0, 1.0]), "sliding_speed": np.array([0.2, -0.8]), "load": np.full(2, 5.0)}
+    columns |= {"contact_load": np.full(2, 1.0), "film_to_roughness_ratio": np.ones(2)}
     largest = largest_friction_in_time(scene, columns | {"rolling_force": np.array([0.0, -0.01])}, 2.0)
     np.testing.assert_allclose(largest, [0.13, 0.07 + 2 * 0.01 / 5.0])
 

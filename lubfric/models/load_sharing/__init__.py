@@ -14,6 +14,7 @@ from .balance import Balance, is_separated, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import (
     OF_ROLLING,
+    OF_SHARE,
     STATIONARY_ROLLING_RATIO,
     least_error,
     load_sharing_error,
