@@ -102,7 +102,8 @@ def _why_to_zero(scene: Scene, result: TransientResult) -> str:
     first, last = (_moment(result, index) for index in (reached.outputs[0], reached.outputs[-1]))
     place = f"between t = {first} and {last}" if len(reached.outputs) > 1 else f"t = {first}"
     causes = "; ".join(
-        f"{cause} ({counted(count, 'outputs')})" if len(reached.causes) > 1 else cause for cause, count in reached.causes
+        f"{cause} ({counted(count, 'outputs')})" if len(reached.causes) > 1 else cause
+        for cause, count in reached.causes
     )
     ways = f" To narrow it, {', or '.join(reached.ways)}." if reached.ways else ""
     return (
