@@ -36,6 +36,7 @@ hotter.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,7 +45,7 @@ from scipy.linalg import solve_triangular
 
 from .._base import FloatArray
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
-from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
+from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, ShearLaw, log_viscosity_ratio, shear_stress
 
 # Péclet number u b rho c/(2 k) [-] from which a heat source moves fast (Jaeger 1942).
 FAST_PECLET_NUMBER = 5.0
@@ -283,18 +284,21 @@ def heated_stress(
     per_stress = speed * h / (12 * k)  # K/Pa
     high = log_eta + np.log(2 * speed / h)
     low = np.minimum(high + np.log(LEAST_HEATED_STRESS), np.log(LEAST_STRESS))
-    for _ in range(STRESS_HALVINGS):
-        middle = 0.5 * (low + high)
-        tau = np.exp(middle)
-        above = _too_high(lubricant, p, h, speed, tau, log_eta, beta, wall + tau * per_stress)
-        low = np.where(above, low, middle)
-        high = np.where(above, middle, high)
+    laws = lubricant.shear_laws[::-1]
+    with np.errstate(over="ignore"):
+        for _ in range(STRESS_HALVINGS):
+            middle = 0.5 * (low + high)
+            tau = np.exp(middle)
+            above = _too_high(laws, k, p, h, speed, tau, log_eta, beta, wall + tau * per_stress)
+            low = np.where(above, low, middle)
+            high = np.where(above, middle, high)
     tau = np.exp(0.5 * (low + high))
     return np.copysign(tau, sliding), tau * per_stress
 
 
 def _too_high(
-    lubricant: Lubricant,
+    laws: Sequence[ShearLaw],
+    k: float,
     p: FloatArray,
     h: FloatArray,
     speed: float,
@@ -304,14 +308,12 @@ def _too_high(
     mean: FloatArray,
 ) -> np.ndarray:
     """Return where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
-    limit."""
+    limit. ``laws``: of its shear, the last one first."""
     newtonian = tau
-    k = lubricant.conductivity
-    with np.errstate(over="ignore"):
-        for law in reversed(lubricant.shear_laws):
-            newtonian = np.minimum(law.newtonian(newtonian, law.critical_at(p, mean)), MOST_STRESS)
-        log_rate = np.log(newtonian) - log_eta  # of gamma_w
-        excess = np.exp(np.log(beta * tau * speed**2 / (8 * k)) - log_rate)  # a - 1
-        left = np.arcsinh(np.sqrt(excess)) ** 2
-        right = np.exp(np.log(beta * tau * h**2 / (8 * k)) + log_rate) + (beta * tau * h * speed / (8 * k)) ** 2
+    for law in laws:
+        newtonian = np.minimum(law.newtonian(newtonian, law.critical_at(p, mean)), MOST_STRESS)
+    log_rate = np.log(newtonian) - log_eta  # of gamma_w
+    excess = np.exp(np.log(beta * tau * speed**2 / (8 * k)) - log_rate)  # a - 1
+    left = np.arcsinh(np.sqrt(excess)) ** 2
+    right = np.exp(np.log(beta * tau * h**2 / (8 * k)) + log_rate) + (beta * tau * h * speed / (8 * k)) ** 2
     return right > left

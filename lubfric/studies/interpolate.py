@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -293,7 +294,7 @@ class Interpolant:
             is_bracketed=bool(is_inside and speed[last] <= WIDEST_BRACKET * speed[first]),
         )
 
-    @property
+    @cached_property
     def _other_ends(self) -> list[Interpolant]:
         """The curves with lift-off at the ends of its range, and with other powers with which the contact ends
         there."""
@@ -311,7 +312,7 @@ class Interpolant:
         others = [replace(self, lift_off=place) for place in within]
         return others + [replace(self, end=power) for power in OTHER_POWERS]
 
-    @property
+    @cached_property
     def _changes_without_points(self) -> np.ndarray:
         """The relative change of f at each point, (n,), where the curve goes through the others only; 0 at the ends."""
         s = self.samples
