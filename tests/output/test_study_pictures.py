@@ -115,6 +115,7 @@ STUDIES = {
 }
 WIDTHS = {"column": 0.085, "page": 0.17, "usual": None}  # m; the usual one is 5 % wider than a page
 TALL = ("five keys", "four keys over many speeds", "gear")  # of the pictures at the usual width, a kind each
+WIDE = (*TALL, "two keys", "200 random points", "random points with speeds", "gear and names")  # those across a page
 LEAST_LETTERS = 6.0  # pt
 TEMPERATURE = {"three keys": "lubricant.temperature_celsius"}
 PRINTED = 300  # points per inch, in which letters have the widths of print
@@ -187,7 +188,12 @@ def faults(figure):
 
 @pytest.mark.parametrize(
     "name, width",
-    [(name, width) for name in STUDIES for width in WIDTHS if width != "usual" or name in TALL],
+    [
+        pytest.param(name, width, marks=[pytest.mark.slow] * (width == "page" and name not in WIDE))
+        for name in STUDIES
+        for width in WIDTHS
+        if width != "usual" or name in TALL
+    ],
 )
 def test_texts_of_a_study_are_complete_and_apart(tmp_path, drawn, name, width):
     options = PictureOptions(width=WIDTHS[width])
