@@ -40,10 +40,8 @@ def measured_traction(stress, limit, seed, noise=0.02):
     return lubfric.Measured(SLIPS, f, over="slide_roll_ratio")
 
 
-@pytest.mark.parametrize(
-    "stress, limit, start",
-    [(6e6, 0.035, (4e6, 0.06)), pytest.param(8e6, 0.03, (2e6, 0.095), marks=pytest.mark.slow)],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("stress, limit, start", [(6e6, 0.035, (4e6, 0.06)), (8e6, 0.03, (2e6, 0.095))])
 def test_a_start_in_a_wrong_minimum_or_without_a_gradient_is_left(stress, limit, start):
     """Where the limiting stress is nowhere reached, f does not change with it, and a search from there stays."""
     measured = measured_traction(stress, limit, 3)
