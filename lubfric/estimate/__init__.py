@@ -39,7 +39,7 @@ from .uncertainty import (
     interval,
     row_of_uncertainty,
 )
-from .uncertainty_of_f import uncertainty_of
+from .uncertainty_of_f import CUT_AT_LIMIT, CUT_AT_ZERO, NAME_OF_INTERVAL, uncertainty_of
 from .work_of_point import (
     NOT_MEASURED,
     PointWorkEstimate,

@@ -8,7 +8,16 @@ import numpy as np
 
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
-from ..estimate import MethodUse, UncertaintyCurve, cited, inputs_to_quote, methods_of
+from ..estimate import (
+    CUT_AT_LIMIT,
+    CUT_AT_ZERO,
+    NAME_OF_INTERVAL,
+    MethodUse,
+    UncertaintyCurve,
+    cited,
+    inputs_to_quote,
+    methods_of,
+)
 from ..models.load_sharing import OF_ROLLING, OF_SHARE, STATIONARY_ROLLING_RATIO, least_error
 from ..models.shared import (
     GatheredTexts,
@@ -282,18 +291,28 @@ class TransientResult(Renamed, Shown):
         unknown = np.full(f.size, math.nan)
         below, above = np.broadcast_to(self.inputs, (2, f.size))
         sides = [self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high")]
+        interval = interval_in_time(self.columns, below, above, self.most_rolling_ratio)
+        least, most = limits_in_time(self.columns, self.most_rolling_ratio)
+        cuts = [
+            tuple(
+                text.format(NAME_OF_INTERVAL[True]) for text, is_cut in zip((CUT_AT_ZERO, CUT_AT_LIMIT), both) if is_cut
+            )
+            for both in zip(interval[:, 0] == least, interval[:, 1] == most)
+        ]
         return UncertaintyCurve(
             model_sides=np.stack(sides, axis=1),
             numerical=self.columns.get("shear_error", unknown),
             sampling=error,
-            interval=interval_in_time(self.columns, below, above, self.most_rolling_ratio),
+            interval=interval,
             line_scatter=error * math.sqrt(self.line_length / self.width),
             effective_contacts=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=np.fmax(*sides),
             inputs=unknown if self.not_in else np.maximum(below, above) / np.maximum(np.abs(f), TINY),
-            text=tuple("; ".join((f"sampling {percent(each)}", *self.not_in)) for each in error),
+            text=tuple(
+                "; ".join((f"sampling {percent(each)}", *cut, *self.not_in)) for each, cut in zip(error.tolist(), cuts)
+            ),
         )
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
@@ -371,14 +390,21 @@ def interval_in_time(
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
-    allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
-    most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
-    rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
-    by_rolling = np.minimum(np.minimum(most_rolling_ratio * np.nan_to_num(rolling), f), 0.0)
-    least = np.where(columns["sliding_speed"] != 0, by_rolling, -most)
+    least, most = limits_in_time(columns, most_rolling_ratio)
     ends = np.stack([np.maximum(f - below, least), np.minimum(f + above, most)], axis=1)
     return np.where(unknown[:, None], math.nan, ends)
+
+
+def limits_in_time(columns: dict[str, np.ndarray], most_rolling_ratio: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the smallest f that resists the sliding, and the largest by the limits of the shear stress, at every time,
+    (nt,) each, between which an interval ends; arguments as of `TransientResult`."""
+    f = columns["coefficient"]
+    allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
+    most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
+    rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
+    by_rolling = np.minimum(np.minimum(most_rolling_ratio * np.nan_to_num(rolling), f), 0.0)
+    return np.where(columns["sliding_speed"] != 0, by_rolling, -most), most
 
 
 def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray], most_rolling_ratio: float) -> np.ndarray:

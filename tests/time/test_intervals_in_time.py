@@ -182,6 +182,8 @@ def test_no_time_of_a_run_has_an_interval_beyond_the_limits_of_the_shear_stress(
         rolling = 2 * np.abs(run.rolling_force) / run.load  # the rough body is at rest
         np.testing.assert_allclose(run.largest_friction, most + rolling, rtol=1e-9)
         assert np.all(high <= run.largest_friction) and np.all(low < run.coefficient)
+        ends = ["ends at the largest f by the limits of the shear stress" in text for text in run.uncertainty.text]
+        np.testing.assert_array_equal(ends, high == run.largest_friction)
         np.testing.assert_array_equal(high, run.columns["interval_high"])
 
 
@@ -204,6 +206,8 @@ def test_an_interval_that_reaches_zero_says_why(held, boundary, rolling, samplin
     scene = RUN.with_(motion={"slide_roll_ratio": 0.5})
     run = replace(held, columns=columns, inputs=0.0)
     assert np.all(run.uncertainty.interval[:, 0] == 0.0)
+    assert all("begins at the smallest f that resists the sliding" in each for each in run.uncertainty.text)
+    assert not any("resists the sliding" in each for each in held.uncertainty.text)
     text = " ".join(history_answer.history_answer(scene, run, complete=True))
     assert f"At 3 outputs, between t = 0 s and {3} ms, the interval of f reaches 0" in text and cause in text
 
