@@ -33,6 +33,7 @@ from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, Expec
 from .pieces import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP
 from .problem import are_soft, reach, why_too_many
 from .shorter_cells import PIECES_SHARE
+from .strip import error_of_patch
 from .strip_on_two_grids import (
     MapCoarsening,
     coarsening_at_rest,
@@ -64,8 +65,8 @@ CHANGE_OF_FILM = 1.0
 # is exponential.
 CHANGE_IF_NOT_SMOOTH = 1.5
 
-# Estimated error of f by the cells over the last change [-] (`error_by_cells`): 0.3 to 3, by the ratio of the last two.
-# A choice between these.
+# Estimated error of f by the cells over the last of some changes [-] (`error_by_cells`, `error_of_patch`): 0.3 to 3, by
+# the ratio of the last two. A choice between these.
 ERROR_OVER_CHANGE = 1.5
 
 # Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more. It
@@ -306,6 +307,7 @@ def _work_in_levels(
     """
     numerics = scene.numerics
     is_patch = sample.refines_in_place
+    over_first_change = error_of_patch((1.0,)) if is_patch else ERROR_OVER_CHANGE
     (dx, dy) = sample.cells.native_spacing
     columns = sum(reach(scene.line_contact(abs(speed)), sq)) / dx
     rows = sample.strip_length / dy
@@ -316,6 +318,7 @@ def _work_in_levels(
 
     (sx, sy) = sample_coarsening_of(scene, sample)
     coarsening = sx * sample.cells.coarsening[0], sy * sample.cells.coarsening[1]
+    first_cell = coarsening[0] * dx
     (on_longer, _) = _solves_on(scene, sample, (2 * coarsening[0], 2 * coarsening[1]), sq=sq, speed=speed)
     (first, again) = _solves_on(scene, sample, coarsening, sq=sq, speed=speed)
     work = count * (on_longer + first) + OF_SLOPE * again
@@ -328,9 +331,11 @@ def _work_in_levels(
         part = 1.0
         is_needed = numerics.grid == "given" or (not is_patch and halvings == 0 and not is_smooth)
         if not is_needed:
-            log_change = _log_change_of_patch(scene, sample, sq=sq, speed=speed, coarsening=coarsening)
+            cell = first_cell / 2**halvings  # along y alone they change f no more than along both
+            log_change = _log_change_of_patch(scene, sample, sq=sq, speed=speed, cell=cell)
             log_change += 0.0 if is_smooth else math.log(CHANGE_IF_NOT_SMOOTH)
-            part = _part_above(numerics.tolerance / ERROR_OVER_CHANGE, log_change)
+            over_change = ERROR_OVER_CHANGE if halvings else over_first_change
+            part = _part_above(numerics.tolerance / over_change, log_change)
         log_work += left * (1.0 - part) * math.log(work + ends * again)
         left *= part
         if why_too_many(columns * rows / (shorter[0] * shorter[1])) or (halvings > 0 and next_first > most):
@@ -348,12 +353,9 @@ def _part_above(change: float, log_expected: float) -> float:
     return 0.5 * math.erfc((math.log(change) - log_expected) / (math.sqrt(2.0) * CHANGE_SPREAD))
 
 
-def _log_change_of_patch(
-    scene: Scene, sample: Sample, *, sq: float, speed: float, coarsening: tuple[int, int]
-) -> float:
-    """Return the logarithm of the change of f on cells of this length, in native ones, from cells twice as long that is
+def _log_change_of_patch(scene: Scene, sample: Sample, *, sq: float, speed: float, cell: float) -> float:
+    """Return the logarithm of the change of f to a ``cell`` along x of this length [m] from one twice as long that is
     expected of a patch at rest."""
-    cell = coarsening[0] * sample.cells.native_spacing[0]
     log_ratio = math.log(scene.line_contact(abs(speed)).moes_film / sq)
     by_film = -CHANGE_BY_FILM * (log_ratio - LARGEST_CHANGE) ** 2
     by_length = CHANGE_BY_LENGTH * math.log(cell / sample.correlation_lengths[0])

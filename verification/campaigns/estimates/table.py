@@ -7,8 +7,8 @@ moving roughness: divided by 1.87, the median ratio of 15 runs. The twelve from 
 that `paced` times. Those after number 110: as `paced` gives them; 11 earlier runs, repeated there, took 1.03 times as
 long, 0.9 to 1.45; that machine was shared, too. So was that of the last 33 runs below number 10000, and of those on
 patches above it, with two threads on one core. The rolling points were done again there, or for the first time from
-number 512 on, and so were the fits; and the patches at rest whose shorter cells no longer end in vain. All estimates
-but those that are measured are of the present code (`--again`).
+number 512 on, and so were the fits, and the patches at rest by the deterministic model. All estimates but those that
+are measured are of the present code (`--again`).
 """
 
 import math
