@@ -13,6 +13,7 @@ from typing import Any
 from ..errors import InputError
 from ..estimate import (
     PointWorkEstimate,
+    WorkOfPoints,
     estimated_work_of_point,
     expected_of_sample,
     expected_violations,
@@ -57,7 +58,7 @@ LISTED = 4
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
     """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses),
     within a factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
-    return _curve_seconds(_estimated_points(prepared, speeds), speeds, has_new_map=has_new_map)
+    return _curve_seconds(_estimated_points(_work_of(prepared), speeds), speeds, has_new_map=has_new_map)
 
 
 def traction_seconds(models: Sequence[Prepared], speed: float, *, has_new_map: bool = True) -> float:
@@ -73,10 +74,13 @@ def _curve_seconds(points: Sequence[PointWorkEstimate], speeds: Sequence[float],
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
 
 
-def _estimated_points(prepared: Prepared, speeds: Sequence[float]) -> list[PointWorkEstimate]:
+def _work_of(prepared: Prepared) -> WorkOfPoints:
+    return WorkOfPoints(prepared.scene, prepared.sample, prepared.surface)
+
+
+def _estimated_points(work: WorkOfPoints, speeds: Sequence[float]) -> list[PointWorkEstimate]:
     """Return what the points of a scene at ``speeds`` [m/s] (none: at those that it chooses) will take."""
-    at = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
-    return [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
+    return [work.at(speed) for speed in speeds or expected_speeds(work.scene, work.surface.sq)]
 
 
 def estimated_study(plan: Any, store: str | Path | None = None) -> float:
@@ -155,12 +159,13 @@ def _left(plan: Any, table: StudyTable) -> Left:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
             prepared = prepare(scene)
-            points = _estimated_points(prepared, speeds)
+            work = _work_of(prepared)
+            points = _estimated_points(work, speeds)
             one = _curve_seconds(points, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
             known |= _seconds_of_each(key, points, one) if speeds else {(key, NO_SPEED): one}
             models.update(point.model.name for point in points)
-            violations.append(_expected(prepared, speeds, points))
+            violations.append(_expected(prepared, speeds, points, work))
             effects += _expected_effects(prepared, speeds)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
@@ -188,13 +193,13 @@ def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float
 
 
 def _expected(
-    prepared: Prepared, speeds: Sequence[float], points: Sequence[PointWorkEstimate]
+    prepared: Prepared, speeds: Sequence[float], points: Sequence[PointWorkEstimate], work: WorkOfPoints
 ) -> tuple[Violation, ...]:
     """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its
-    unusual values; ``points``: the estimates of its points."""
+    unusual values; ``points``: the estimates of its points, of ``work``."""
     scene = prepared.scene
     solved_speeds = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
-    expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds)
+    expected = expected_violations(scene, prepared.sample, prepared.surface, solved_speeds, work)
     known_before = {violation.assumption for violation in prepared.violations}
     of_sample = [
         pair for pair in expected_of_sample(scene, prepared.sample, points) if pair[1].assumption not in known_before
