@@ -4,14 +4,18 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..film import line_peak_pressure
+from ..oil import Lubricant
 from ..quantities import COLUMNS, KEYS, worded_value
 from ..samples import rough_bodies
-from ..scene import HISTORIES, Roughness, Scene
+from ..scene import BOUNDARY_FILM, HISTORIES, Roughness, Scene
 from ..surface import Surface
 from ..units import worded
 
 # Methods by which a pressure-viscosity coefficient is estimated (`lubfric.oil.Oil.pressure_viscosity_coefficient`).
 ESTIMATED_BY = ("gold", "so-klaus")
+
+# Key of the pressure-viscosity coefficient.
+ALPHA_KEY = "lubricant.pressure_viscosity_coefficient"
 
 
 def inputs_to_quote(
@@ -39,13 +43,16 @@ def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
     """Yield the load, the radius, the modulus and the hardness of ``scene``, as `inputs_to_quote`."""
     bodies = scene.bodies
     histories = scene.transient
-    yield f"{_in_time(scene, 'load', 'load', bodies.load)} on a length of {worded(bodies.width, 'm')}"
+    yield _in_time(scene, "load", "load", bodies.load)
+    yield f"length of the line contact {worded(bodies.width, 'm')}"
     yield _in_time(scene, "radius", "reduced radius", bodies.radius)
     if histories is None or (histories.load is None and histories.radius is None):
         peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
         yield f"peak Hertz pressure {worded(peak, 'Pa')}"
-    yield f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}"
-    if bodies.hardness is not None:
+    yield f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}, where 2/E' = (1 - ν1²)/E1 + (1 - ν2²)/E2"
+    if bodies.hardness is None:
+        yield "elastic asperities, without a plastic limit"
+    else:
         yield f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
 
 
@@ -58,7 +65,9 @@ def lubricated_contact_to_quote(scene: Scene, *, takes_boundary_film: bool = Tru
         f"boundary friction coefficient {worded(bodies.boundary_friction_coefficient, '-')}"
         f"{_range(scene, 'bodies.boundary_friction_coefficient')}"
     )
-    if bodies.boundary_film is not None:
+    if bodies.boundary_film is None and takes_boundary_film:
+        yield f"boundary film {worded(BOUNDARY_FILM, 'm')} (the default of lubfric)"
+    elif bodies.boundary_film is not None:
         film = f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}"
         yield film if takes_boundary_film else f"{film}, which limits the interval of f alone"
     if histories is not None:
@@ -130,7 +139,11 @@ def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_
         if rough.file is not None:
             yield f"height map{name} {Path(rough.file).name}{_map_in_words(rough, measured.get(section))}"
         if rough.sq is not None:
-            yield f"Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}{_correlation_length(rough)}"
+            yield f"Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}"
+        if rough.file is None:
+            yield from _generated(rough, name)
+    if scene.counterface is None:
+        yield "smooth counterface"
 
 
 def _map_in_words(rough: Roughness, surface: Surface | None) -> str:
@@ -150,25 +163,40 @@ def _map_in_words(rough: Roughness, surface: Surface | None) -> str:
     return f" ({', '.join(facts)})"
 
 
-def _correlation_length(rough: Roughness) -> str:
-    if rough.correlation_length is None:
+def _generated(rough: Roughness, name: str) -> Iterator[str]:
+    """Yield how a map was generated; ``name``: of the body, behind each quantity."""
+    if rough.correlation_length is not None:
+        length = worded(rough.correlation_length, "m")
+        yield f"correlation length{name} {length} ({rough.acf} autocorrelation)"
+    yield f"height map{name} generated with the seed {rough.seed}"
+
+
+def _of_measured_oils(lubricant: Lubricant) -> str:
+    """Return that the pressure-viscosity coefficient is estimated, with its range, as text; "" where it is given."""
+    if lubricant.oil is None or lubricant.temperature is None:
         return ""
-    return f" with a correlation length of {worded(rough.correlation_length, 'm')} ({rough.acf} autocorrelation)"
+    estimate = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature)
+    if estimate.method not in ESTIMATED_BY:
+        return ""
+    ends = worded((estimate.low, estimate.high), "1/Pa").replace(" and ", " to ")
+    return f" (estimated; the range of measured oils, {ends}, is not in the interval of f)"
 
 
 def _lubricant(scene: Scene) -> Iterator[str]:
     lubricant = scene.lubricant
-    yield _in_time(scene, "viscosity", "viscosity", lubricant.viscosity) + (
-        "" if lubricant.temperature is None else f" at {worded_value('lubricant.temperature', lubricant.temperature)}"
-    )
+    oil = lubricant.oil
+    if oil is not None:
+        yield f"lubricant {oil.given_keys.get('grade', oil.name)} ({oil.base})"
+        if "viscosity_table" not in oil.given_keys:  # which may not have 40 and 100 °C
+            yield f"viscosity index {oil.index:.4g}"
+    if lubricant.temperature is not None:
+        yield f"oil temperature {worded_value('lubricant.temperature', lubricant.temperature)}"
+    if oil is not None and lubricant.temperature is not None:
+        yield f"density {worded(oil.density_at(lubricant.temperature), 'kg/m³')}"
+    yield _in_time(scene, "viscosity", "viscosity", lubricant.viscosity)
     if lubricant.viscosity_law != "constant":
-        estimate = ""
-        if lubricant.oil is not None and lubricant.temperature is not None:
-            estimate = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature).method
-        is_estimated = estimate in ESTIMATED_BY
         alpha = worded(lubricant.pressure_viscosity_coefficient, "1/Pa")
-        by_range = _range(scene, "lubricant.pressure_viscosity_coefficient")
-        yield f"pressure-viscosity coefficient {alpha}{' (estimated)' if is_estimated else ''}{by_range}"
+        yield f"pressure-viscosity coefficient {alpha}{_range(scene, ALPHA_KEY) or _of_measured_oils(lubricant)}"
     if lubricant.inlet_length is not None:
         yield f"lubricant from {worded(lubricant.inlet_length, 'm')} upstream of the middle on"
     if lubricant.inlet_film is not None:

@@ -41,7 +41,14 @@ class MethodUse:
 def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
     """Return the names of the methods that a result with this ``use`` rests on."""
     of_model = use.model.methods(prepared, has_contact=use.has_contact, has_film=use.has_film)
-    used = dict.fromkeys(of_model, True) | {"interval": use.is_sampled} | _surface(prepared)
+    used = (
+        dict.fromkeys(of_model, True)
+        | {
+            "multilevel estimate": use.is_sampled and use.model.takes_control(prepared.scene, prepared.sample),
+            "interval": use.is_sampled,
+        }
+        | _surface(prepared)
+    )
     if use.has_film:
         used |= _lubricant(prepared, use) | _heat(prepared, use)
     used |= _typical_values(prepared.scene, use)

@@ -8,14 +8,22 @@ import numpy as np
 
 from ..models import title_of
 from ..models.shared import Decision
-from ..quantities import COLUMNS, counted
+from ..quantities import COLUMNS
+from ..scene import BOUNDARY_FILM
+from ..units import worded
 from .uncertainty import PARTS, Uncertainty
+
+# What chose among the models that may answer.
+WHICH_MODEL = ", the cheapest within the tolerances at each point"
 
 # Authors of a source that are named; of more the first alone. A convention.
 NAMED_AUTHORS = 2
 
 # Parts of the interval that are no errors of their own name, in the paragraph; {}: the inputs.
-PARTS_IN_PARAGRAPH = {"not given": "the range of {}, which was not given", "input": "the ranges of {}"}
+PARTS_IN_PARAGRAPH = {
+    "not given": f"the assumed range of the {{}}, half to twice {worded(BOUNDARY_FILM, 'm')}",
+    "input": "the stated range of the {}",
+}
 
 
 def methods_paragraph(
@@ -25,17 +33,21 @@ def methods_paragraph(
     uncertainties: Sequence[Uncertainty],
     inputs: Sequence[str],
     what: str = "Friction",
+    models: Sequence[str] = (),
 ) -> str:
     """Return the paragraph: ``what`` was computed, by the program of the ``version``; by which models and on which
-    cells the points are (``decisions``), their ``inputs``, the ``sources`` of the methods (of papers.toml), and what
-    the intervals of f contain by their ``uncertainties``."""
+    cells the points are (``decisions``; the ``models`` that may answer, where it is not known which did), their
+    ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain and how wide they
+    are, by their ``uncertainties``."""
     by_model = Counter(decision.model for decision in decisions)
     total = sum(by_model.values())
     shares = [
         title_of(name) if count == total else f"{title_of(name)} ({count} of {total} points)"
         for name, count in by_model.most_common()
     ]
-    by = f" by its {_joined(shares)}" if shares else ""
+    names = [title_of(name) for name in models]
+    which = f"{_joined(names, 'or')}{WHICH_MODEL if len(names) > 1 else ''}"
+    by = f" by its {_joined(shares) or which}" if shares or names else ""
     by_purpose: dict[str, list[str]] = {}
     for source in sources:
         by_purpose.setdefault(source["purpose"], []).append(_reference(source))
@@ -45,18 +57,36 @@ def methods_paragraph(
     sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
     sentences += [f"The methods are: {methods}."] if methods else []
     parts = _parts_of_interval(uncertainties)
-    sentences += [f"The 95 % interval of f contains {_joined(parts)}."] if parts else []
+    sentences += [f"The 95 % interval of f contains {_joined(parts)}{_widths(uncertainties)}."] if parts else []
     return " ".join(sentences)
 
 
 def _cells(decisions: Sequence[Decision]) -> list[str]:
     """Return on how many strips and cells the points were solved; nothing where none has cells."""
-    sizes = {(each.strips, *each.shape) for each in decisions if each.shape is not None}
-    if not sizes:
-        return []
-    ends = dict.fromkeys((min(sizes), max(sizes)))
-    texts = [f"{nx} x {ny} cells in {counted(strips, 'strips')}" for strips, nx, ny in ends]
-    return [" to ".join(texts)]
+    joined = [(each.strips, each.shape) for each in decisions if each.shape is not None]
+    single = [(each.strips, each.cells_of_strip) for each in decisions if each.cells_of_strip is not None]
+    return [
+        f"{_span([strips for strips, _ in sizes])} strip{'s' if max(sizes)[0] > 1 else ''} of "
+        f"{_span([nx for _, (nx, _) in sizes])} x {_span([ny for _, (_, ny) in sizes])} cells {how}"
+        for sizes, how in ((joined, "in all (dry contact)"), (single, "each (film and contact)"))
+        if sizes
+    ]
+
+
+def _span(numbers: Sequence[int]) -> str:
+    """Return the range of ``numbers`` as text: "3", or "1 to 4"."""
+    return " to ".join(map(str, dict.fromkeys((min(numbers), max(numbers)))))
+
+
+def _widths(uncertainties: Sequence[Uncertainty]) -> str:
+    """Return the range of half the widths of the intervals, relative to f, as text; "" where none is known. Where f is
+    near 0 it has none."""
+    known = [each for each in uncertainties if np.isfinite(each.interval).all() and not each.is_near_zero]
+    halves = [100 * (each.interval[1] - each.interval[0]) / abs(2 * each.coefficient) for each in known]
+    if not halves:
+        return ""
+    ends = dict.fromkeys(f"{float(f'{half:.2g}'):g}" for half in (min(halves), max(halves)))
+    return f"; half its width is {' to '.join(ends)} % of f"
 
 
 def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:
@@ -74,7 +104,7 @@ def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:
         given = (key for each in known for key in each.inputs_in_interval)
         keys = dict.fromkeys(missing if name == "not given" else given)
         labels = [COLUMNS[key].label if key in COLUMNS else key for key in keys if key]
-        ranges.append(PARTS_IN_PARAGRAPH[name].format(_joined(labels)))
+        ranges += [PARTS_IN_PARAGRAPH[name].format(label) for label in labels]
     if not errors:
         return ranges
     return [f"the {_joined(errors)} error{'s' if len(errors) > 1 else ''}", *ranges]
@@ -83,7 +113,7 @@ def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:
 def _reference(source: dict[str, Any]) -> str:
     """Return a ``source`` as it is cited within a sentence: "Polonsky and Keer 1999, doi:..."."""
     if source["type"] == "software":
-        return "documentation of lubfric"
+        return f"{source['author'][0]} {source['year']}, lubfric {source['version']}, {source['manual']}"
     if source["type"] == "techreport":
         return f"{source['number']}, {source['year']}"
     names = [author.rpartition(" ")[2] for author in source["author"]]
@@ -91,7 +121,7 @@ def _reference(source: dict[str, Any]) -> str:
     return f"{who} {source['year']}" + (f", doi:{source['doi']}" if "doi" in source else "")
 
 
-def _joined(words: Iterable[str]) -> str:
-    """Return ``words`` as a list in a sentence: "a, b and c"."""
+def _joined(words: Iterable[str], last_word: str = "and") -> str:
+    """Return ``words`` as a list in a sentence: "a, b and c", with the ``last_word`` before the last."""
     *others, last = [*words] or [""]
-    return " and ".join(filter(None, (", ".join(others), last)))
+    return f" {last_word} ".join(filter(None, (", ".join(others), last)))

@@ -194,16 +194,18 @@ def cited(
     errors: Sequence[Uncertainty] = (),
     inputs: Sequence[str] = (),
     what: str = "Friction",
+    models: Sequence[str] = (),
 ) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
     "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and
-    the ``inputs`` that they share. ``what``: was computed, as text."""
+    the ``inputs`` that they share. ``what``: was computed, as text; ``models``: that may have answered, by name, where
+    no decisions are kept."""
     validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
     if format == "methods":
-        return methods_paragraph(__version__, sources, decisions, errors, inputs, what)
+        return methods_paragraph(__version__, sources, decisions, errors, inputs, what, models)
     if not any(source["type"] == "software" for source in sources):
         program = papers["deterministic model"][0]  # a chapter of lubfric
         sources.append(program | {"chapter": "", "purpose": PROGRAM})
@@ -229,7 +231,9 @@ def _speeds(points: Sequence[FrictionResult]) -> list[str]:
     speeds = [point.speed for point in points]
     if not speeds:
         return []
-    return [span_to_quote("entrainment speed" if min(speeds) == max(speeds) else "entrainment speeds", speeds, "m/s")]
+    if min(speeds) == max(speeds):
+        return [span_to_quote("entrainment speed", speeds, "m/s")]
+    return [span_to_quote(f"{len(speeds)} entrainment speeds", speeds, "m/s")]
 
 
 def shared_inputs(of_points: Sequence[Sequence[str]]) -> list[str]:

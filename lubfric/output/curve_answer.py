@@ -223,22 +223,29 @@ def largest_error_of_points(curve: StribeckResult) -> str:
 def minimum_in_words(curve: StribeckResult) -> str:
     """Return in a sentence between which of the solved speeds f is least, as far as these bracket it."""
     minimum = curve.minimum
-    solved = np.sort(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
-    low = float(solved[solved <= minimum.speeds[0]].max(initial=solved[0]))
-    high = float(solved[solved >= minimum.speeds[1]].min(initial=solved[-1]))
+    speeds = curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)]
+    sense = float(np.sign(speeds[0]))
+    solved = np.sort(np.abs(speeds))
+    first, last = sorted(map(abs, minimum.speeds))
+    low = float(solved[solved <= first].max(initial=solved[0]))
+    high = float(solved[solved >= last].min(initial=solved[-1]))
+    between = f"between U = {sense * low:.3g} and {sense * high:.3g} m/s"
     if minimum.is_bracketed:
-        f = with_interval(minimum.coefficient, *minimum.interval)
-        return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
-    between = f"between U = {low:.3g} and {high:.3g} m/s"
+        return f"The minimum of f is {with_interval(minimum.coefficient, *minimum.interval)}, {between}."
     more = "solve more speeds there, or let --speeds auto choose them"
     is_below = low <= solved[0]
     is_above = high >= solved[-1]
     if is_below and is_above:
         return f"The speeds solved do not show where f has its minimum; {more}."
-    if is_above:
-        return f"The minimum of f lies {between} or at higher speeds; solve these to find it."
-    if is_below:
-        return f"The minimum of f lies {between} or at lower speeds; solve these to find it."
+    for is_at_end, end, name, beside, others in (
+        (is_above, solved[-1], "fastest", low >= solved[-2:][0], "higher"),
+        (is_below, solved[0], "slowest", high <= solved[:2][-1], "lower"),
+    ):
+        if is_at_end and abs(minimum.speed) != end:
+            return f"The minimum of f lies {between} or at {others} speeds; solve these to find it."
+        if is_at_end:
+            errors = "" if beside else f"; by the numerical errors of the points it may lie {between}"
+            return f"The minimum of f is not reached: f still falls at the {name} speed, U = {sense * end:.3g} m/s{errors}."
     return f"The minimum of f lies {between}; {more}."
 
 

@@ -96,7 +96,8 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     if len(words) != 3:
         parts = counted(len(words), "parts")
         raise InputError(f" {text} has {parts}", option, recommendation=f"write low:high:count, such as {example}")
-    low, high, count = numbers_of(option, words, [unit, unit, "-"])
+    (low, high) = numbers_of(option, words[:2], [unit, unit])
+    count = number_of(option, words[2], "-")  # without a unit, also where the ends are in percent
     for end in (low, high):
         validate.number(option, end, unit, minimum=-most, maximum=most)
     shown = "" if unit == "-" else f" {unit}"

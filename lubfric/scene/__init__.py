@@ -1,6 +1,7 @@
 """The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import (
+    BOUNDARY_FILM,
     BOUNDARY_FILM_KEY,
     BOUNDARY_FRICTION_KEY,
     FASTEST,

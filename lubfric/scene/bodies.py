@@ -19,6 +19,9 @@ HARDNESS_KEY = "bodies.hardness"
 SLIDE_ROLL_RATIO_KEY = "motion.slide_roll_ratio"
 SLIP_KEY = "motion.slip_percent"
 
+# Boundary film [m] where a scene gives none: nearest to published shares of the load (docs/deterministic.md).
+BOUNDARY_FILM = 20e-9
+
 # Largest entrainment speed [m/s].
 FASTEST = KEYS["motion.entrainment_speed"].most
 

@@ -94,7 +94,7 @@ class CurveResult(Renamed, Shown):
         (name, _, unit, plural) = self.SWEPT
         swept = [value for value, point in zip(getattr(self, name).tolist(), self.points) if point is not None]
         is_speed = name == "speed"  # each point states its own
-        inputs = [span_to_quote(plural, swept, unit or "-")] if swept and not is_speed else []
+        inputs = [span_to_quote(f"{len(swept)} {plural}", swept, unit or "-")] if swept and not is_speed else []
         return cite_together((point for point in self.points if point is not None), format, inputs)
 
     def _facts(self) -> dict[str, str]:

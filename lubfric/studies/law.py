@@ -93,7 +93,8 @@ class Law(Shown):
     numbers : of the formula, by name; SI
     ranges : {"speed", "temperature", "pressure": (lowest, highest)} of the points; temperature NaN if not known
     largest, rms : relative deviation from the solved points, and from the curve between them where it is sure
-    interval : largest half width of the 95 % intervals of the points, model included, relative; NaN if one is not known
+    interval : largest distance of an end of the 95 % interval of a point from its f, model included, relative; NaN if
+        one is not known
     """
 
     name: str
@@ -261,14 +262,14 @@ def law_of(
     numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, at_rest)
     deviations = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
-    widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
+    sides = np.where(np.isfinite(model), np.maximum(high - f, f - low) / np.abs(f), np.nan)[np.isfinite(f)]
     return Law(
         name=scene.name,
         numbers=numbers,
         ranges=ranges,
         largest=float(abs(deviations).max()),
         rms=float(np.sqrt(np.mean(deviations**2))),
-        interval=float(widths.max()),
+        interval=float(sides.max()),
     )
 
 

@@ -44,6 +44,7 @@ class StudyPlan(FieldsOnly):
     point_speeds : of the operating points [m/s], one for each value of the last axis; none of curves
     coordinates : of the operating points, by name: numbers that say where they lie, such as the position or the time
     notes : how columns of the table without a unit were read, and doubts about plain numbers, in sentences
+    drawn : how [sample] of a study file drew its points, as text; "": it did not
     keys : of the curves, the last axis fastest: hashes of all that their points depend on in addition to the speed
     """
 
@@ -54,6 +55,7 @@ class StudyPlan(FieldsOnly):
     point_speeds: tuple[float, ...] = ()
     coordinates: dict[str, tuple[float, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    drawn: str = ""
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
@@ -277,7 +279,9 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         _add(vary, tuple(lists), list(zip(*lists.values())))
     speeds = table.get("speeds")
     operating_points: Any = points
+    how_drawn = ""
     if "sample" in table:
+        how_drawn = _drawn_in_words(table["sample"])
         (keys, drawn) = _sampled(table["sample"], path.name)
         if SPEED in keys:
             if points is not None or "points" in table:
@@ -293,7 +297,14 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     if "points" in table and points is None:
         rows = table["points"]
         operating_points = path.parent / rows if isinstance(rows, str) else _flat_rows(rows)
-    return plan_study(scene, vary, speeds, operating_points)
+    return replace(plan_study(scene, vary, speeds, operating_points), drawn=how_drawn)
+
+
+def _drawn_in_words(table: Any) -> str:
+    """Return how [sample] of a study file draws its points, as text."""
+    given = table if isinstance(table, dict) else {}
+    how = "independent random points" if given.get("sampler") == "random" else "a scrambled Sobol sequence"
+    return f"{given.get('count')} sets of values drawn as {how} with the seed {given.get('seed', 0)}"
 
 
 def _flat_rows(rows: Any) -> Any:

@@ -19,6 +19,7 @@ from ..errors import InputError
 from ..estimate import (
     UNCERTAINTY_COLUMNS,
     MethodUse,
+    Uncertainty,
     cited,
     inputs_to_quote,
     methods_of,
@@ -27,8 +28,8 @@ from ..estimate import (
 )
 from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
-from ..quantities import COLUMN_OF_ERROR, NUMBERS
-from ..scene import Scene
+from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted
+from ..scene import Scene, inputs_not_given
 from .best import best, best_mean
 from .interpolate import Interpolant, through
 from .law import law_of_study
@@ -40,7 +41,16 @@ from .study_lines import plot
 from .study_table import StudyTable
 from .tables import place_in_words, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
-PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
+PLAN_FIELDS = (
+    "scene",
+    "axes",
+    "speeds",
+    "keys",
+    "point_speeds",
+    "coordinates",
+    "notes",
+    "drawn",
+)  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
 COLUMNS_OF_ERRORS = (*UNCERTAINTY_COLUMNS, *INTERVAL_COLUMNS["power_loss"])
 # Names of columns by those of version 0.2.0, which a study still takes.
@@ -261,7 +271,32 @@ class StudyResult(Renamed, Shown):
         ]
         inputs = shared_inputs(texts)
         varied = [varied_to_quote(key, values.tolist()) for key, (_, values) in self.coords.items()]
-        return cited(names, format, inputs=[*inputs, *varied])
+        drawn = [self.plan.drawn] if self.plan.drawn else []
+        points = [counted(int(np.isfinite(self["coefficient"]).sum()), "points")]
+        return cited(
+            names,
+            format,
+            errors=self._uncertainties(),
+            inputs=[*inputs, *varied, *drawn, *points],
+            models=[model.name for model in models],
+        )
+
+    def _uncertainties(self) -> list[Uncertainty]:
+        """Return what the columns keep of the uncertainty of f at each solved point."""
+        columns: dict[str, Any] = {name: np.ravel(self.columns[column]) for name, column in COLUMN_OF_ERROR.items()}
+        f = np.ravel(self["coefficient"])
+        ends = np.stack([np.ravel(self["interval_low"]), np.ravel(self["interval_high"])], axis=-1).tolist()
+        scene = self.plan.scene
+        return [
+            Uncertainty(
+                coefficient=float(f[i]),
+                interval=(ends[i][0], ends[i][1]),
+                missing_input=next(iter(inputs_not_given(scene)), ""),
+                inputs_in_interval=tuple(name for name, *_ in scene.ranges),
+                **{name: values[i].item() for name, values in columns.items()},
+            )
+            for i in np.flatnonzero(np.isfinite(f)).tolist()
+        ]
 
     def _use(self, model: Model) -> MethodUse:
         """Return what the columns show of the methods that the study uses, where ``model`` answers."""

@@ -58,6 +58,7 @@ PLANNED = tuple[
     tuple[float, ...],
     dict[str, tuple[float, ...]],
     tuple[str, ...],
+    str,
 ]
 CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s] so far, and whether these are all
 

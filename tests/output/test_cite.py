@@ -46,12 +46,17 @@ def test_a_paragraph_to_quote_has_what_was_used():
         assert text.count(f"doi:{doi}") == 1, doi
     for purpose in {line.rpartition(": ")[2] for line in listed.splitlines()}:
         assert f"{purpose} (" in text
-    assert text.endswith(
-        "contains the numerical, sampling and model-form errors and the range of boundary film, which was not given."
+    (low, high) = sorted(
+        50 * (each.interval[1] - each.interval[0]) / each.coefficient for each in (p.uncertainty for p in curve.points)
     )
+    assert text.endswith(f"; half its width is {low:.2g} to {high:.2g} % of f.")
+    known = (
+        "the numerical, sampling and model-form errors and the assumed range of the boundary film, half to twice 20 nm"
+    )
+    assert known in text and "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
     point = curve.points[1]
     assert "by its load-sharing model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
-    assert "the ranges of" not in text and "the ranges of boundary friction coefficient" in cites_methods(ANTI_WEAR)
+    assert "stated range" not in text and "stated range of the boundary friction coeff" in cites_methods(ANTI_WEAR)
 
 
 def cites_methods(scene):
@@ -70,8 +75,9 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     peak = (b.load * b.e_prime / (2 * math.pi * b.width * b.radius)) ** 0.5
     nx, ny = point.decision.shape
     for words in (
-        f"Sq {1e9 * scene.surface.sq:.4g} nm with a correlation length of "
-        f"{1e6 * scene.surface.correlation_length:.4g} µm",
+        f"Sq {1e9 * scene.surface.sq:.4g} nm; correlation length {1e6 * scene.surface.correlation_length:.4g} µm",
+        f"height map generated with the seed {scene.surface.seed}; smooth counterface",
+        f"viscosity index {scene.lubricant.oil.index:.4g}; oil temperature 60 °C; density ",
         f"load {b.load:.4g} N",
         f"peak Hertz pressure {1e-6 * peak:.4g} MPa",
         "pressure-viscosity coefficient 20 1/GPa;",
@@ -80,7 +86,7 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         f"slide-roll ratio {scene.motion.slide_roll_ratio:.4g}; entrainment speed 0.03 m/s",
         "one patch of the surface in place of strips",
         "boundary film 15 nm",
-        f"{nx} x {ny} cells in 1 strip",
+        f"1 strip of {nx} x {ny} cells in all",
     ):
         assert words in stated, words
     paper = lubfric.friction(scene.with_(numerics={"model": "paper"}), 0.03)
@@ -88,9 +94,12 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     is_same = paper.coefficient == thin.coefficient
     assert is_same and "boundary film 15 nm, which limits the interval of f alone" in paper.cite("methods")
     estimated = lubfric.friction(PATCH.with_(lubricant=OIL), 0.03, raise_on_failure=False).cite("methods")
-    assert "1/GPa (estimated)" in estimated and "boundary film " not in estimated.partition("The methods")[0]
+    assert "is not in the interval" in estimated and "boundary film " not in estimated.partition("The methods")[0]
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")
     assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 2 to 3 N" in study
+    assert "by its load-sharing model." in study and "; 2 points." in study
+    by_any = cited([], "methods", models=["paper", "quick", "deterministic"])
+    assert "load-sharing model, quick model or deterministic model, the cheapest" in by_any
     assert "docs/" not in estimated + study
 
 
@@ -107,7 +116,7 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     starved = inputs_to_quote(KNOWN.with_(lubricant={"inlet_length": 3e-4}, bodies={"hardness": 2.5e9}))
     assert "lubricant from 300 µm upstream of the middle on" in starved
     assert "plastic limit of the contact pressure 2.5 GPa" in starved
-    assert inputs[2].startswith("load 100 to 200 N on a length of") and not any("peak" in text for text in inputs)
+    assert "load 100 to 200 N" in inputs and not any("peak" in text for text in inputs)
 
 
 def test_a_mirrored_map_is_quoted_as_it_was_measured(tmp_path):

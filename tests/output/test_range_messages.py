@@ -55,6 +55,7 @@ def test_ratios_that_are_percentages_are_questioned(text):
 )
 def test_ratios_of_any_size_are_taken_with_their_unit(text, ratios):
     assert parse_ratios(text) == pytest.approx(ratios)
+    assert parse_ratios("0:50 %:11") == parse_ratios("0 %:50 %:11") == parse_ratios("0:0.5:11")
     given = in_percent(parse_ratios(text))
     np.testing.assert_allclose(validate.numbers("ratios", given, "-", 1e6), ratios)
 

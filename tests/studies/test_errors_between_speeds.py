@@ -144,14 +144,20 @@ def test_more_speeds_make_the_error_smaller():
     "speeds, stated",
     [
         ((3.59, 5.0), "U = 2 and 5 m/s or at higher speeds"),
+        ((5.0, 3.59, 5.0), "is not reached: f still falls at the fastest speed, U = 5 m/s."),
+        ((5.0, 1.0, 5.0), "do not show"),
         ((0.05, 0.3), "U = 0.05 and 2 m/s or at lower speeds"),
         ((0.3, 4.0), "do not show where f has its minimum"),
     ],
 )
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, sign):
-    ends = tuple(sorted(sign * speed for speed in speeds))
-    minimum = SimpleNamespace(speeds=ends, is_inside=False, is_bracketed=False)
+    """``speeds``: of the least f, if it is at an end; between which it may lie."""
+    (*least, low, high) = (sign * speed for speed in speeds)
+    ends = tuple(sorted((low, high)))
+    minimum = SimpleNamespace(
+        speed=(least or [0.5 * (low + high)])[0], speeds=ends, is_inside=False, is_bracketed=False
+    )
     curve = SimpleNamespace(speed=sign * np.array([0.05, 2.0, 5.0]), coefficient=np.ones(3), minimum=minimum)
     if sign > 0:
         assert stated in minimum_in_words(curve)

@@ -60,7 +60,7 @@ def test_a_sample_with_speeds_has_operating_points(tmp_path):
     shares = qmc.Sobol(2, seed=3).random(4)
     assert plan.point_speeds == pytest.approx(0.01 * 100 ** shares[:, 1])
     np.testing.assert_allclose(plan.coords["bodies.load"][1], 3 + 2 * shares[:, 0])
-    assert plan.points == 4
+    assert plan.points == 4 and plan.drawn == "4 sets of values drawn as a scrambled Sobol sequence with the seed 3"
     with (tmp_path / "study.toml").open("a") as file:
         file.write("[[points]]\nspeed = 0.1\n")
     with pytest.raises(lubfric.InputError, match=r"\[sample\] of study.toml has speeds, and points has them too"):

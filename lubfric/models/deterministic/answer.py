@@ -341,6 +341,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
         contact_in_words="boundary friction where the gap is below the boundary film",
         tolerance=tolerance,
         strips=len(results),
+        cells_of_strip=results[0].pressure.shape,
         heat_in_words=known,
         notes=notes,
     )

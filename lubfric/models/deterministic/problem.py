@@ -25,11 +25,11 @@ from ...contact import BOUNDARY, HalfSpace, half_space
 from ...errors import InputError, TooManyCellsError
 from ...film import HasLineContact, LineContact, line_peak_pressure
 from ...oil import Lubricant
+from ...scene import BOUNDARY_FILM
 from ...surface import Surface
 from ..shared import Memo, OperatorKey
 
 FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice (`ERROR_BY_GAP` has what half of it changes)
-BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
 
 # The effects of half and twice the lengths of the grid are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.problem`).

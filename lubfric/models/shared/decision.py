@@ -19,6 +19,7 @@ class Decision(Renamed):
     shape : cells (nx, ny) of the contact; None: none was solved on cells
     coarsening : length of these cells in native ones, along each axis
     strips : number of strips of the surface that were solved
+    cells_of_strip : cells (nx, ny) of a strip whose film was solved with its contact; None: none was
     change_by_cells : relative change of f by native cells, for which it is corrected
     heat_in_words : which heat was modelled; "": none can be
     notes : what else a reader should know
@@ -35,6 +36,7 @@ class Decision(Renamed):
     shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     strips: int = 1
+    cells_of_strip: tuple[int, int] | None = None
     change_by_cells: float = 0.0
     heat_in_words: str = ""
     notes: tuple[str, ...] = ()
