@@ -36,11 +36,8 @@ WITHOUT_SAMPLING = (
 )
 
 
-def curve_answer(
-    scene: Scene, curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float
-) -> list[str]:
-    """Return the answer of a curve in sentences: at the point nearest to the scene's own, whose surfaces slide at
-    ``sliding_speed`` [m/s], and over all."""
+def curve_answer(scene: Scene, curve: CurveResult, point: FrictionResult, place: str) -> list[str]:
+    """Return the answer of a curve in sentences: at the ``point`` nearest to the scene's own, and over all."""
     swept = curve.SWEPT[0]
     own = operating_point_of(scene, swept)
     values = getattr(curve, swept).tolist()
@@ -66,7 +63,7 @@ def curve_answer(
         sentences += change_of_model(curve)
     low, high = point.power_loss_interval
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
-    sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
+    sentences.append(f"{loss}{rolling_in_words(point)}.")
     if math.isfinite(point.lambda_ratio):
         sq = point.full_load_film / point.lambda_ratio if point.lambda_ratio > 0 else math.nan
         over = f" over a Sq of {plain_number(sq, 'm')}" if math.isfinite(sq) else ""
@@ -91,7 +88,7 @@ def curve_answer(
         least = place_on_curve(curve, sliding[f[sliding].argmin()])
         largest = place_on_curve(curve, sliding[f[sliding].argmax()])
         ends = f"from {plain_number(f[sliding].min())} {least} to {plain_number(f[sliding].max())} {largest}"
-        where = "" if sliding.size == solved.size else " and at which f is not that of rolling resistance"
+        where = "" if sliding.size == solved.size else " and at which rolling resistance does not make most of f"
         sentences.append(f"Over the {counted(sliding.size, curve.SWEPT[3])} solved{where}, f goes {ends}.")
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
 

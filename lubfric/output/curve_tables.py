@@ -31,9 +31,7 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
     units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
-    sliding = curve.slide_roll_ratios * getattr(curve, "speed")
-    load = curve["contact_load"] + curve["film_load"]
-    rolling = rolling_part(curve["power_loss"], sliding, curve["coefficient"], load)
+    rolling = rolling_part(curve["rolling_resistance"], getattr(curve, "speed"))
     has_rolling = is_tabled(rolling, curve["power_loss"])
     (of_power, *of_others) = (column_heading(name, units[name]) for name in OF_POINT)
     of_rolling = [heading_of_rolling(units["power_loss"])] if has_rolling else []

@@ -157,11 +157,10 @@ class SceneEstimate:
     run: RunEstimate | None = None
 
 
-def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
-    """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling
-    resistance, and of a large part its error at 95 %, as text to be appended; "" for a small part."""
-    load = point.contact_load + point.film_load
-    rolling = float(rolling_part(point.power_loss, sliding_speed, point.coefficient, load))
+def rolling_in_words(point: FrictionResult) -> str:
+    """Return how much of the power loss of ``point`` is rolling resistance, and of a large part its error at 95 %, as
+    text to be appended; "" for a small part."""
+    rolling = float(rolling_part(point.rolling_resistance, point.speed))
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         return ""
     part = as_beside(rolling, point.power_loss, *point.power_loss_interval, unit="W")

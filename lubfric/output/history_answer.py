@@ -34,10 +34,10 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     last = float(result.time[-1])
     span = worded(last, "s") if first == 0.0 else f"the time from {worded(first, 's')} to {worded(last, 's')}"
     are_the_same = np.array_equal(counts_in_average(result.columns), in_motion(result.columns))
-    verb = "move" if are_the_same else "slide"
-    when = (
-        f"over {span}" if mean.in_motion == 1 else f"while the surfaces {verb} ({100 * mean.in_motion:.3g} % of {span})"
-    )
+    part = f"{100 * mean.in_motion:.3g} % of {span}"
+    when = f"over the {part} in which rolling resistance does not make most of f"
+    if are_the_same:
+        when = f"over {span}" if mean.in_motion == 1 else f"while the surfaces move ({part})"
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     at_floor = f": {GAP_OF_TOUCHING}" if is_gap_of_touching(float(np.nanmin(result.min_film))) else ""
     level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")

@@ -43,7 +43,7 @@ def method_lists(prepared: Prepared, result: CurveResult | TransientResult, esti
     lines = estimate.sections["transient"]
     nearest = nearest_solved(prepared.scene, result) if isinstance(result, CurveResult) else None
     if nearest is not None:
-        (point, place, _) = nearest
+        (point, place) = nearest
         lines = [f"{place}: {part}" for part in point.decision.parts]
     elif isinstance(result, TransientResult):
         lines = [*lines, *planned]

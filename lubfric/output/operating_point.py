@@ -8,7 +8,7 @@ import numpy as np
 from ..estimate import FrictionResult
 from ..quantities import worded_value
 from ..scene import Scene
-from ..studies import CurveResult, TractionResult
+from ..studies import CurveResult
 from .describe import belongs_to_curve, index_of_nearest, is_among
 
 
@@ -36,9 +36,8 @@ def operating_point_not_solved(scene: Scene, solved: Iterable[float], name: str 
     return f"{what}because --{name}s does not contain it."
 
 
-def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str, float] | None:
-    """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no
-    point has an answer."""
+def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | None:
+    """Return the solved point nearest to the scene's own, and its place as text; None if no point has an answer."""
     name = curve.SWEPT[0]
     solved = np.flatnonzero(np.isfinite(curve["coefficient"])).tolist()
     if not solved:
@@ -47,8 +46,7 @@ def nearest_solved(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, st
     index = solved[index_of_nearest(values, operating_point_of(scene, name), are_speeds=name == "speed")]
     point = curve.points[index]
     assert point is not None
-    ratio = float(curve.ratio[index]) if isinstance(curve, TractionResult) else scene.motion.slide_roll_ratio
-    return point, place_on_curve(curve, index), ratio * point.speed
+    return point, place_on_curve(curve, index)
 
 
 def place_on_curve(curve: CurveResult, index: int) -> str:

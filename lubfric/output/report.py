@@ -84,7 +84,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "kind": status_of_curve(scene, curve).kind(failed=bool(curve.errors)),
         "status": escape(curve_in_words(scene, curve)),
         "answer": paragraphs(answer),
-        "budget": "" if nearest is None else point_budget(*nearest[:2]),
+        "budget": "" if nearest is None else point_budget(*nearest),
         "table": operating_table(scene, curve),
         "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1])
         + effects_at_other_points(curve, {effect.what for effect in effects}),

@@ -14,15 +14,10 @@ TABLED_ROLLING_PART = 0.1
 SMALL_ROLLING_PART = 0.01
 
 
-def rolling_part(
-    power_loss: FloatArray | float,
-    sliding_speed: FloatArray | float,
-    coefficient: FloatArray | float,
-    load: FloatArray | float,
-) -> FloatArray:
-    """Return the part of the ``power_loss`` [W] that is rolling resistance [W], at points with the ``sliding_speed``
-    [m/s], the friction ``coefficient`` [-] and the ``load`` [N], all (n,) or of one point."""
-    return np.asarray(power_loss - np.abs(sliding_speed) * coefficient * load)
+def rolling_part(rolling_resistance: FloatArray | float, speed: FloatArray | float) -> FloatArray:
+    """Return the part of the power loss [W] that is rolling resistance, at points with the ``rolling_resistance`` [N]
+    of both surfaces and the entrainment ``speed`` [m/s], (n,) or of one point; the other part is the work of shear."""
+    return np.asarray(rolling_resistance * np.abs(speed))
 
 
 def is_tabled(rolling: FloatArray, power_loss: FloatArray) -> bool:

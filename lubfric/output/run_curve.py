@@ -67,7 +67,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     measured = measured_of(arguments, "stribeck")
     total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
-    progress = _progress("U = {:.4g} m/s", scene, is_total_known=speeds != studies.AUTO_SPEEDS)
+    progress = _progress("U = {:.4g} m/s", is_total_known=speeds != studies.AUTO_SPEEDS)
     names = names_of_run("stribeck")
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
@@ -161,7 +161,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     ratios = parse_ratios(arguments.ratios)
     measured = measured_of(arguments, "traction")
     ended: list[tuple[Any, ...]] = []
-    progress = _progress("slide-roll ratio {:.4g}", scene, has_ratios=True)
+    progress = _progress("slide-roll ratio {:.4g}")
     workers = _workers(arguments, scene, ratios)
 
     def kept() -> str:
@@ -408,9 +408,9 @@ def _say_operating_point(scene: Scene, requested: list[float], *, are_of_command
     say(f"{operating_point_not_solved(scene, requested)} The operating point of the report is the speed nearest to it.")
 
 
-def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_ratios: bool = False) -> Callable[..., Any]:
-    """Return what says how a point of ``scene`` ended; ``place``: the template of its place on the curve.
-    ``is_total_known``: whether the number of points is; ``has_ratios``: the points differ in their slide-roll ratio."""
+def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
+    """Return what says how a point ended; ``place``: the template of its place on the curve; ``is_total_known``:
+    whether the number of points is."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
         number = f"{done:>{len(str(total))}}/{total}" if is_total_known else str(done)
@@ -423,8 +423,7 @@ def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_rati
         known = outcome.uncertainty
         omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
         time_ = f"(wall-clock time of the point {outcome.seconds:.2f} s)"
-        ratio = value if has_ratios else scene.motion.slide_roll_ratio
-        rolling = rolling_in_words(outcome, ratio * outcome.speed).replace(", of", " of", 1)
+        rolling = rolling_in_words(outcome).replace(", of", " of", 1)
         loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}{rolling}"
         say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}")
 

@@ -168,8 +168,8 @@ def _rolling_line(result: StudyResult) -> list[str]:
         return []
     where = numbers_in_words(numbers.tolist(), int(solved.sum()))
     return [
-        f"{where} the surfaces hardly slide, and f is that of rolling resistance: it does not count in the smallest "
-        "f, in means of f and in the best designs; the power loss counts at all points."
+        f"{where} rolling resistance makes most of f: this f does not count in the smallest f, in means of f and in "
+        "the best designs; the power loss counts at all points."
     ]
 
 

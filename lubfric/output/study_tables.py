@@ -83,7 +83,7 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
             heads.append(head)
             cells.append(column)
             if name == "power_loss":
-                cells += _rolling_column(result, columns, picked, heads)
+                cells += _rolling_column(columns, picked, heads)
             continue
         heads += [head, INTERVAL_OF_F]
         place_of_interval = len(heads) - 1
@@ -102,14 +102,10 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
     return table(heads, body)
 
 
-def _rolling_column(
-    result: StudyResult, columns: dict[str, np.ndarray], picked: np.ndarray, heads: list[str]
-) -> list[list[str]]:
+def _rolling_column(columns: dict[str, np.ndarray], picked: np.ndarray, heads: list[str]) -> list[list[str]]:
     """Return the cells of the rolling resistance in the power loss at the points that are ``picked``, and append its
     heading to ``heads``; none where it is a small part of the loss at all of them."""
-    ratios = np.array([scene.motion.slide_roll_ratio for scene in scene_of_each(result)])
-    load = columns["contact_load"] + columns["film_load"]
-    rolling = rolling_part(columns["power_loss"], ratios * columns["speed"], columns["coefficient"], load)[picked]
+    rolling = rolling_part(columns["rolling_resistance"], columns["speed"])[picked]
     loss = columns["power_loss"][picked]
     if not is_tabled(rolling, loss):
         return []

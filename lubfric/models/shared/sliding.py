@@ -9,9 +9,9 @@ def is_by_sliding(columns: Mapping[str, np.ndarray]) -> np.ndarray:
     """Return at which points of a table f counts in its means, in the smallest f and in relative errors: a bool for
     each.
 
-    Where the surfaces do not slide, or hardly, as at the pitch point of a gear, f is that of rolling resistance, its
-    relative error says nothing, and the power loss is the number to look at. So the force by shear of film and asperity
-    contacts has to exceed the rolling force. Where it does so nowhere, all points count, as in a study of rolling
+    Where rolling resistance makes most of f, as near the pitch point of a gear or at a small slide-roll ratio, the
+    relative error of f says nothing, and the power loss is the number to look at. So the force by shear of film and
+    asperity contacts has to exceed the rolling force. Where it does so nowhere, all points count, as in a study of rolling
     resistance.
 
     ``columns``: coefficient [-]; boundary_force, couette_force and rolling_force [N], without which all points count.
