@@ -8,7 +8,7 @@ from ..models.shared import percent_or_less, sentence
 from ..quantities import COLUMNS
 from ..scene import Scene
 from ..studies import CurveResult, Law, StribeckResult
-from ..units import beside_interval, converted, interval_in_words, unit_of_largest, with_interval
+from ..units import beside_interval, converted, interval_in_words, unit_for, unit_of_largest, with_interval
 from .budget_bars import budget_labels
 from .curve_answer import largest_error_of_points, model_of_point
 from .describe import is_among
@@ -29,7 +29,7 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
     swept = curve.SWEPT[0]
     names = (swept, *OF_POINT)
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
-    units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
+    units = {name: unit_for(values[name].tolist(), COLUMNS[name].unit) for name in names}
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
     rolling = rolling_part(curve["rolling_resistance"], getattr(curve, "speed"))
     has_rolling = is_tabled(rolling, curve["power_loss"])

@@ -20,6 +20,9 @@ from ..models.shared import (
 )
 from ..scene import Numerics, Scene
 
+# Why an error above its tolerance is no warning.
+WHY_A_NOTE = "the error is usual for the model, or the scene names the model"
+
 
 @dataclass(frozen=True, kw_only=True)
 class MissedTolerance:
@@ -58,11 +61,8 @@ class MissedTolerance:
                 f"{sentence(place(self.worst)).removesuffix('.')} the {self.error} is {value}, above {limit} "
                 f"({self.tolerance})."
             )
-        notes = (
-            f" At {self.notes} of these it is a note, because it is usual for the model or accepted with it."
-            if self.notes
-            else ""
-        )
+        where = "This" if self.notes == len(self.points) else f"At {self.notes} of these it"
+        notes = f" {where} is a note, because {WHY_A_NOTE}." if self.notes else ""
         above = "above its tolerance"
         if self.limits is not None and percent(self.limits[0]) != percent(self.limits[1]):
             low, high = map(percent, self.limits)

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import FloatArray, figures
 from ..errors import InputError
 from ..samples import is_extended, is_measured
-from ..studies import friction_over_speed, gaps_of, interval_band
+from ..studies import OF_TOLERANCES, friction_over_speed, gaps_of, interval_band
 from ..time import (
     add_angle_axis,
     band_label,
@@ -25,7 +25,6 @@ from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
 from .point_picture import draw_point
-from .study_warnings import OF_TOLERANCES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -122,7 +122,7 @@ def _mean_lines(result: StudyResult) -> list[str]:
 def _mean_in_words(mean: float, low: float, high: float, unit: str) -> str:
     """Return a mean in the SI ``unit`` with its interval, or why it is not known."""
     if not np.isfinite(mean):
-        return "not known, as points failed"
+        return "not known, as points are not solved"
     return with_interval(mean, low, high, unit=unit) + ("" if np.isfinite(low) else " (interval not known)")
 
 
@@ -214,4 +214,5 @@ def numbered_point(plan: StudyPlan, index: tuple[int, ...]) -> str:
 def _coordinate(name: str, values: np.ndarray, index: int) -> str:
     """Return one of the ``values`` of a coordinate in the unit that all have in common."""
     unit = unit_of_largest(values.tolist(), COLUMNS[name].unit)
-    return f"{converted(float(values[index]), COLUMNS[name].unit, unit):.4g} {printed(unit)}"
+    text = f"{converted(float(values[index]), COLUMNS[name].unit, unit):.4g} {printed(unit)}"
+    return text.replace(" °", "°")

@@ -16,7 +16,7 @@ from ..units import (
     interval_in_words,
     plain_number,
     printed,
-    unit_of_largest,
+    unit_for,
     with_interval,
     worded,
 )
@@ -110,7 +110,7 @@ def _rolling_column(columns: dict[str, np.ndarray], picked: np.ndarray, heads: l
     if not is_tabled(rolling, loss):
         return []
     si = COLUMNS["power_loss"].unit
-    unit = unit_of_largest(loss.tolist(), si)
+    unit = unit_for(loss.tolist(), si)
     heads.append(heading_of_rolling(unit))
     texts = [_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]
     return [without_small(texts, rolling, loss)]
@@ -150,7 +150,7 @@ def _column(
     if name == "lubricant.temperature":
         return f"{head} [°C]", [f"{value:.4g}" for value in values - float(ZERO_CELSIUS)]
     si = quantity.unit if quantity else "-"
-    unit = unit_of_largest(values.tolist(), si)
+    unit = unit_for(values.tolist(), si)
     head += f" [{printed(unit)}]" if printed(unit) else ""
     pair = REPORTED_NUMBERS.get(name)
     low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))

@@ -2,17 +2,15 @@
 
 import numpy as np
 
-from ..models.shared import Assumption, GatheredTexts, first_sentence, sentence
+from ..models.shared import GatheredTexts, first_sentence, sentence
 from ..quantities import COLUMNS, counted, worded_value
 from ..samples import is_measured, requests_patch
 from ..scene import has_moving_roughness
-from ..studies import StudyResult, columns_of_study
+from ..studies import OF_TOLERANCES, StudyResult, columns_of_study
 from .study_points import scene_of_each
 
 # Where the points are listed that a sentence has no room for.
 ALL_IN_TABLE = " The column validity of study.csv has all of them."
-# Errors of f whose tolerances a list names the points of.
-OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR, Assumption.MODEL_FORM_ERROR)
 
 
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:

@@ -27,7 +27,7 @@ from ..estimate import (
     varied_to_quote,
 )
 from ..models import Model, models_that_may_answer, prepare
-from ..models.shared import GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
+from ..models.shared import Assumption, GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted
 from ..scene import Scene, inputs_not_given
 from .best import best, best_mean
@@ -53,6 +53,8 @@ PLAN_FIELDS = (
 )  # what is stored of it
 # Columns of the uncertainty, which a study has even if no point of it is solved.
 COLUMNS_OF_ERRORS = (*UNCERTAINTY_COLUMNS, *INTERVAL_COLUMNS["power_loss"])
+# Errors of f whose tolerances a list names the points of.
+OF_TOLERANCES = (Assumption.NUMERICAL_ERROR, Assumption.SAMPLING_ERROR, Assumption.MODEL_FORM_ERROR)
 # Names of columns by those of version 0.2.0, which a study still takes.
 OLD_COLUMNS = {f"uncertainty_{name}": column for name, column in COLUMN_OF_ERROR.items()} | {
     "uncertainty_low": "interval_low",
@@ -476,7 +478,18 @@ def result_of_table(table: StudyTable) -> StudyResult:
     names += [name for name in COLUMNS_OF_ERRORS if name not in names]
     missing = np.full(status.shape, np.nan)
     ordered = {name: columns.get(name, missing) for name in names}
-    return StudyResult(table.plan, ordered | columns, status, violations)
+    kept = _without_notes_of_rolling(ordered | columns, violations)
+    return StudyResult(table.plan, ordered | columns, status, kept)
+
+
+def _without_notes_of_rolling(columns: dict[str, np.ndarray], violations: np.ndarray) -> np.ndarray:
+    """Return ``violations`` without notes on relative errors of f where rolling resistance makes most of f
+    (`is_by_sliding`): no relative error counts there."""
+    kept = violations.copy()
+    for index in np.argwhere(~is_by_sliding(columns)).tolist():
+        at_point = violations[tuple(index)]
+        kept[tuple(index)] = tuple(each for each in at_point if not (each.is_note and each.assumption in OF_TOLERANCES))
+    return kept
 
 
 def has_study(folder: str | Path) -> bool:

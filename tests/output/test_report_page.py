@@ -284,7 +284,8 @@ def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
     assert differing.in_words(3, place) == (
         "At 2 of 3 points the numerical error of f is above its limits, 0.5 to 1 %, farthest at U = 2 m/s: 2 %, "
         "above 1 % "
-        "(numerics.tolerance). At 1 of these it is a note, because it is usual for the model or accepted with it."
+        "(numerics.tolerance). At 1 of these it is a note, because the error is usual for the model, or the scene names "
+        "the model."
     )
 
 

@@ -9,6 +9,7 @@ from small_study import SCENE, same, violations_at
 
 import lubfric
 from lubfric.output import films_in_words, main
+from lubfric.output.status import status_of_study
 from lubfric.output.study_answer import answer_lines
 from lubfric.output.study_inputs import common_inputs
 from lubfric.output.study_report import study_page
@@ -462,3 +463,13 @@ def test_the_points_of_the_answer_are_in_the_table_of_a_long_study(monkeypatch):
     for name in ("coefficient", "power_loss"):
         values = np.ravel(result[name])
         assert {int(np.argmin(values)) + 1, int(np.argmax(values)) + 1} <= set(numbers)
+
+
+def test_the_status_and_the_notes_of_a_study_count_the_same_points():
+    """Rolling resistance makes most of f at point 2: no relative error counts there, in either."""
+    columns = dict(zip(("radius", "load", "u1", "u2", "duration"), zip(*ROWS)))
+    study = lubfric.study(SCENE.with_(numerics={"model": "paper", "model_tolerance": 1e-3}), points=columns)
+    (missed,) = (each for each in status_of_study(study).exceeded if "model-form" in each.error)
+    (note,) = (each for each in study.gathered if each.violation.unit == "%" and "model-form" in each.violation.what)
+    assert note.numbers == tuple(point + 1 for point in missed.points) == (1, 3)
+    assert note.violation.value == pytest.approx(100 * missed.value, rel=1e-12)
