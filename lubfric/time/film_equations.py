@@ -20,6 +20,7 @@ which the gap grows beyond the lubricant that flows in. Where the film forms aga
 as full: mass is conserved in the pressurised film, but not through cavitation.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,26 +43,31 @@ AT_INLET = 1e-9
 NO_PRESSURE = (0.0, 0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Spring:
-    """A spring that carries load in addition to the film; its load falls exponentially with the mean film ``weights``
-    @ H.
+    """A spring that carries load in addition to the film; its load falls with the mean film ``weights`` @ H.
 
-    Its load is ``load`` exp((``mean`` - mean film)/``length``), and a straight line beyond one length of compression.
+    Its load is ``load`` ((``opening`` - mean film)/(``opening`` - ``mean``))^``power``: 0 from a mean film of
+    ``opening`` on. An elastic cell has the power 1, a Hertz contact 3/2, a rough surface more. Where the spring carries
+    more than e times ``load``, its load is a straight line.
     """
 
     weights: np.ndarray
+    opening: float
     mean: float
     load: float
-    length: float
+    power: float
 
     def at(self, H: np.ndarray) -> tuple[float, float]:
         """Return the load, and its derivative by the mean film."""
-        depth = (self.mean - float(self.weights @ H)) / self.length
-        if depth > 1.0:
-            return self.load * np.e * depth, -self.load * np.e / self.length
-        load = self.load * np.exp(depth)
-        return load, -load / self.length
+        reach = self.opening - self.mean
+        approach = (self.opening - float(self.weights @ H)) / reach
+        if approach <= 0.0:
+            return 0.0, 0.0
+        bent = min(approach, math.exp(1.0 / self.power))
+        load = self.load * bent**self.power
+        slope = self.power * load / bent
+        return load + slope * (approach - bent), -slope / reach
 
 
 def outside(

@@ -13,7 +13,7 @@ from .._base import may_stay_unsolved
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT
 from ..film import cubic, hertz
-from ..models.load_sharing import film_under, gap_per_film, volume_residual
+from ..models.load_sharing import film_under, volume_residual
 from ..models.shared import Prepared
 from ..scene import Scene
 from .film_equations import Spring
@@ -21,18 +21,50 @@ from .film_setting import Setting
 from .march import Memory, Step
 
 # Choices: a share that is too far off costs further solves, and the last number ends them.
-FIRST_TOUCH = 1e-3  # [-] share of the load that is tried when the film has just become too thin for separated surfaces
-LAST_TOUCH = 1e-5  # [-] share of the load on the contact below which the film is tried without contact
+FIRST_TOUCH = 1e-5  # [-] share of the load that is tried when the film has just become too thin for separated surfaces
+FIRST_POWER = 1.5  # [-] of the approach in the load of the contact, before two loads are known: of one Hertz contact
+LEAST_APPROACH = 1e-9  # [-] of a contact from first touch, over its gap: less is rounding
+LEAST_LOG_LOAD = 1e-3  # [-] change of ln(load) from which the power of the approach follows: less may be an error
 MOST_TRIALS = 16  # number of film and contact solves in one step, at most
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactStep:
-    """The asperity contact in a step: its load [N], its state, and its softness -d(gap)/d(ln load) [m]."""
+    """The asperity contact in a step: its load [N], its state, the mean gap of first touch under the same film [m], and
+    the power of the approach from there with which the load increases."""
 
     load: float
     state: ContactState
-    softness: float
+    touching_gap: float
+    power: float = FIRST_POWER
+
+    @property
+    def approach(self) -> float:
+        """How much smaller than at first touch the mean gap is [m]."""
+        return max(self.touching_gap - self.state.mean_gap, LEAST_APPROACH * self.touching_gap)
+
+    def spring(self, mean_row: np.ndarray, load_unit: float) -> Spring | None:
+        """Return the contact as a spring in the load balance of the film; None of separated surfaces."""
+        if self.load == 0.0:
+            return None
+        return Spring(
+            weights=mean_row,
+            opening=film_under(self.touching_gap),
+            mean=film_under(self.touching_gap - self.approach),
+            load=self.load / load_unit,
+            power=self.power,
+        )
+
+    def followed_by(self, load: float, state: ContactState, touching_gap: float) -> ContactStep:
+        """Return the contact at another load, with the power that leads from this one to it, if it is meaningful."""
+        contact_step = replace(self, load=load, state=state, touching_gap=touching_gap)
+        log_load = math.log(load / self.load) if self.load else 0.0
+        if abs(log_load) < LEAST_LOG_LOAD or contact_step.approach == self.approach:
+            return contact_step
+        power = log_load / math.log(contact_step.approach / self.approach)
+        if power < 0.0:
+            return contact_step
+        return replace(contact_step, power=min(max(power, 0.5 * self.power, 1.0), 2.0 * self.power))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,8 +83,6 @@ class ContactOfMoment:
 
     def closed(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
         """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
-        if film.min() <= 0.0 and load == 0.0:
-            return None
         with may_stay_unsolved():
             return self.patch.close(film, load, start)
         return None
@@ -122,65 +152,32 @@ class LoadSharingSolver:
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: ContactStep) -> Step:
         """Return the solution at ``time`` [s]; its payload is the `ContactStep`.
 
-        A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
-        spring, and its gap gives the next spring (a secant in ln load), until the `volume_residual` is within the
-        tolerance.
+        A `Spring` represents the contact in the film's load balance. It ends at first touch: the surfaces separate
+        where the contact has no load left, however small that was before. The contact is solved at the load of the
+        spring, and its gap gives the next spring (a power of the approach from first touch), until the
+        `volume_residual` is within the tolerance.
         """
         contact = self.contact_at(time)
-        mean_row = contact.mean_row
-        touch = past.load
-        softness = past.softness
-        seen = None
         total = self.setting.line_history.load.before(time)
-        state = past.state
-        mean = past.state.mean_gap
-        solution: Step
+        touch = past
         for _ in range(MOST_TRIALS):
-            spring = None
-            if touch > 0.0:
-                film_in_gap = film_under(mean)
-                length = softness * (film_in_gap / gap_per_film(film_in_gap))
-                spring = Spring(mean_row, film_in_gap, touch / self.setting.load_unit, length)
-            solution = self.setting.solve(time, memory, z, spring)
+            solution = self.setting.solve(time, memory, z, touch.spring(contact.mean_row, self.setting.load_unit))
             if solution.status != CONVERGED:
                 return solution
             load = solution.terms.spring[0] * self.setting.load_unit
-            if spring is not None and load < LAST_TOUCH * total:
-                load = 0.0
             film = contact.to_patch @ solution.terms.H
-            contact_state = contact.closed(film, load, state)
-            if contact_state is None:
+            separated = contact.patch.close(film, 0.0)
+            if load == 0.0 and film.min() <= 0.0:
                 break
-            if load == 0.0:
-                if volume_residual(contact_state) <= 0.0:
-                    if spring is None:
-                        return replace(solution, payload=ContactStep(0.0, contact_state, softness))
-                    touch = 0.0
-                    z = solution.z
-                    state = contact_state
-                    seen = None
-                    continue
-                load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
-                touching_gap = contact_state.mean_gap
-                contact_state = contact.closed(film, load, state)
-                if contact_state is None:
-                    break
-                softness = max(touching_gap - contact_state.mean_gap, 1e-3 * touching_gap)
-            elif abs(volume_residual(contact_state)) <= self.tolerance:
-                softness = _softness(softness, seen, load, contact_state)
-                return replace(solution, payload=ContactStep(load, contact_state, softness))
-            softness = _softness(softness, seen, load, contact_state)
-            seen = (load, contact_state.mean_gap)
-            touch = load
-            mean = contact_state.mean_gap
-            state = contact_state
+            if load == 0.0 and volume_residual(separated) <= self.tolerance:
+                contact_step = replace(touch, load=0.0, state=separated, touching_gap=separated.mean_gap)
+                return replace(solution, payload=contact_step)
+            tried = load or touch.load or FIRST_TOUCH * total
+            state = contact.closed(film, tried, touch.state)
+            if state is None:
+                break
+            touch = touch.followed_by(tried, state, separated.mean_gap)
+            if load > 0.0 and abs(volume_residual(state)) <= self.tolerance:
+                return replace(solution, payload=touch)
             z = solution.z
         return replace(solution, status=ITERATION_LIMIT)
-
-
-def _softness(old: float, seen: tuple[float, float] | None, load: float, contact_state: ContactState) -> float:
-    """Return the secant of the gap over the logarithm of the load, if it is meaningful."""
-    if seen is None or abs(math.log(load / seen[0])) < 1e-6:
-        return old
-    slope = (seen[1] - contact_state.mean_gap) / math.log(load / seen[0])
-    return min(max(slope, 0.3 * old), 3.0 * old) if slope > 0.0 else old

@@ -318,8 +318,7 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
 
 def contact_softness(contact: ContactOfMoment, solution: Step, width: float) -> float:
     """Return -dG/d ln F_C [m] of the contact in ``solution``, by `lubfric.models.load_sharing.slopes_of`; 0 without
-    contact, NaN where the contact at another load was not solved. (`ContactStep.softness` is that with which a step
-    began: its iterations need no more.)"""
+    contact, NaN where the contact at another load was not solved."""
     contact_step = solution.payload
     if contact_step.load <= 0:
         return 0.0

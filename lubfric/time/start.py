@@ -31,7 +31,6 @@ SUPPORTED = {
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
 }
-START_SOFTNESS = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
 def start_load_sharing(scene: Scene | Prepared) -> Start:
@@ -115,7 +114,7 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
 def _untouched(model: TransientLoadSharing, film: Step) -> Step:
     contact = model.contact_at(0.0)
     state = contact.patch.close(contact.to_patch @ film.terms.H, 0.0)
-    return replace(film, payload=ContactStep(0.0, state, max(START_SOFTNESS * state.mean_gap, 1e-12)))
+    return replace(film, payload=ContactStep(load=0.0, state=state, touching_gap=state.mean_gap))
 
 
 def _flying(model: TransientLoadSharing, film: float) -> Step:
@@ -146,7 +145,8 @@ def _resting(model: TransientLoadSharing) -> Step:
         raise InputError(f"{message}; give {ways}")
     undeformed = setting.undeformed(film)
     state = replace(state, mean_film=float(contact.mean_row @ undeformed.terms.H))
-    return replace(undeformed, payload=ContactStep(load, state, START_SOFTNESS * state.mean_gap))
+    touching_gap = patch.close(contact.to_patch @ undeformed.terms.H, 0.0).mean_gap
+    return replace(undeformed, payload=ContactStep(load=load, state=state, touching_gap=touching_gap))
 
 
 def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
@@ -167,8 +167,10 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
     if balance.contact_load == 0.0:
         return _untouched(model, film), error
-    state = balance.contact_state
-    step = model.solve(0.0, None, film.z, ContactStep(balance.contact_load, state, START_SOFTNESS * state.mean_gap))
+    contact = model.contact_at(0.0)
+    touching_gap = contact.patch.close(contact.to_patch @ film.terms.H, 0.0).mean_gap
+    touch = ContactStep(load=balance.contact_load, state=balance.contact_state, touching_gap=touching_gap)
+    step = model.solve(0.0, None, film.z, touch)
     if step.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return step, error

@@ -120,7 +120,7 @@ def rough_state():
     rng = np.random.default_rng(1)
     P = np.sqrt(np.maximum(0.05, 1 - (grid.x / b) ** 2)) * (1 + 0.01 * rng.standard_normal(grid.n + 1))
     memory = Memory(0.7, 40 + 0.5 * grid.x**2)
-    spring = Spring(rng.random(grid.n + 1) / grid.n, 20.0, 2.0, 30.0)
+    spring = Spring(weights=rng.random(grid.n + 1) / grid.n, opening=300.0, mean=20.0, load=2.0, power=9.0)
     return StepEquations(
         grid=grid, problem=problem, memory=memory, speed=0.4, load=3.0, curvature=1.2, viscosity=0.8, spring=spring
     ), np.append(P, 30.0)
@@ -140,6 +140,23 @@ def test_the_jacobian_is_the_derivative():
 
         numerical = (both(1e-6) - both(-1e-6)) / 2e-6
         np.testing.assert_allclose(J @ d, numerical, rtol=2e-5, atol=2e-6 * np.abs(numerical).max())
+
+
+def test_a_spring_ends_at_its_opening_and_is_straight_where_it_is_compressed():
+    spring = Spring(weights=np.ones(1), opening=5.0, mean=3.0, load=7.0, power=1.5)
+
+    def load(film):
+        return spring.at(np.array([film]))[0]
+
+    assert load(3.0) == 7.0
+    assert load(4.0) == pytest.approx(7.0 / 2.0**1.5)  # of a Hertz contact
+    assert spring.at(np.array([5.0])) == spring.at(np.array([6.0])) == (0.0, 0.0)
+    bend = 5.0 - 2.0 * np.e ** (2 / 3)
+    assert load(bend) == pytest.approx(7.0 * np.e)
+    assert load(bend) - 2 * load(bend - 1.0) + load(bend - 2.0) == pytest.approx(0.0, abs=1e-12)
+    for film in (bend - 1.0, 2.0, 4.9):
+        numerical = (load(film + 1e-6) - load(film - 1e-6)) / 2e-6
+        assert spring.at(np.array([film]))[1] == pytest.approx(numerical, rel=1e-6)
 
 
 def test_the_tail_is_the_integral_of_reynolds_equation():

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scene_text import paper_scene
 from small_study import slowness
+from toys import Spring
 
 import lubfric
 from lubfric.models import prepare
@@ -63,6 +64,20 @@ def test_a_slow_ramp_follows_the_stribeck_curve():
     np.testing.assert_allclose(result.coefficient, curve.coefficient, rtol=0.01)
     np.testing.assert_allclose(result.contact_load, curve.contact_load, atol=0.01 * SCENE.bodies.load)
     assert result.contact_load[0] > 1 and result.contact_load[-1] == 0  # through the lift-off
+
+
+def test_the_last_asperity_leaves_and_meets_the_film_with_any_load():
+    """A contact that opens by 3 % of its gap while its load falls from 1e-5 of the total to nothing: the film passes
+    its opening up and down, and the contact has the load of its closed form."""
+    load = 1e-5 * SCENE.bodies.load
+    opening = 2.671e-7
+    contact = Spring(opening, 0.03 * opening, load)
+    plan = Transient(0.3, speed=Harmonic(mean=0.06, amplitude=0.0025, frequency=4.0))
+    result = lubfric.transient(prepare(SCENE.with_(transient=plan), contact=contact), np.linspace(0.01, 0.3, 9))
+    expected = load * (np.maximum(0.0, 1 - result.mean_gap / opening) / 0.03) ** 1.5
+    np.testing.assert_allclose(result.contact_load, expected, rtol=1e-9)
+    touches = result.contact_load > 0.0
+    assert 1 < touches.sum() < 8 and 0.0 < result.contact_load[touches].min() < load
 
 
 @pytest.mark.parametrize("geometry", ["cylinder", "flat"])
