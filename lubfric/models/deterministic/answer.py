@@ -57,10 +57,11 @@ from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .ladder import EndOfCells
-from .levels import Levels, mean, samples_over_time
+from .levels import Levels, mean
 from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip, summit_control
+from .scatter import samples_over_time
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import SampleCoarsening, StripOnTwoGrids, patch_coarsening_to_look_at, sample_coarsening_of
 from .time_and_place import least_blocks

@@ -28,14 +28,12 @@ import numpy as np
 from ..._base import forecast_limit, may_stay_unsolved, work_left
 from ..._base.jobs import map_parts
 from ...quantities import names_with
-from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
 from ..shared import (
     ControlVariate,
     Prepared,
     StandardError,
     add_errors,
-    block_error,
     half_width_of_error,
     is_near_zero,
     strips_for_error,
@@ -45,10 +43,12 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
 from .counted_work import MOST_WORK_OF_POINT
+from .errors_of_parts import errors_of_numbers
 from .ladder import EndOfCells
 from .pieces import Piece, changed_by_pieces
 from .result import DeterministicResult
 from .rough_bodies import summit_control
+from .scatter import samples_over_time, scatter_of_f
 from .shorter_cells import NO_SHORTER_CELLS, on_shorter_cells
 from .strip import StripSolution, change_by_flow, thinned_less
 from .strip_on_two_grids import (
@@ -58,7 +58,7 @@ from .strip_on_two_grids import (
     solve_pair,
     surface_and_map_coarsening,
 )
-from .time_and_place import TimeAndPlace, mean_over_blocks
+from .time_and_place import mean_over_blocks
 
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
@@ -68,23 +68,6 @@ from .time_and_place import TimeAndPlace, mean_over_blocks
 # what is added to it. Half: twice the time. A choice: less takes more strips. Half and twice change f by up to 2.8 %,
 # its interval by up to 12 % and the work by up to 120 % (constants.csv).
 DIFFERENCE_SHARE = 0.95
-
-# Scatter of the deterministic f between strips over that of blocks [-], without a control variate. From the first
-# campaigns of strips, whose numbers are not kept; half and twice change nothing there.
-STRIP_OVER_BLOCKS = 1.3
-
-# Scatter between strips, over that of blocks, of the difference of f from the control [-]. From the same
-# campaigns; with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
-# (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
-DIFFERENCE_OVER_BLOCKS = 1.2
-
-# Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %,
-# twice takes a third more time.
-PRIOR = 3
-
-# Degrees of freedom of the scatter of blocks, at most [-]: blocks of one strip are not independent of each other. Half
-# takes 39 % more time, twice narrows the interval by 8 %.
-FREEDOM = 5
 
 # Bias of strips that balance the load each by itself, over (scatter of f between strips)² [-]: .5 to 1 % near the
 # lift-off speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
@@ -105,9 +88,6 @@ HALVED_WORK = 2.5
 # Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges. A choice:
 # more leaves less to the ends of ranges.
 PART_OF_WORK_LEFT = 0.5
-
-# Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
-STRIPS_FOR_SCATTER = 3
 
 CORRECTED_BY_SUMMITS = (
     "f is corrected by {:+.2g} %, because the summits of the sample differ from those of the infinite surface"
@@ -305,7 +285,7 @@ def levels_of(
     by_chance = math.sqrt((of_strips.value / f) ** 2 - difference_error.value**2)
     sampling_error = replace(of_strips, value=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
-    errors = _errors(prepared, pairs, numbers)
+    errors = errors_of_numbers(prepared, pairs, shorter, numbers)
     errors["coefficient"] = math.hypot(
         *(e for e in (sampling_error.value, difference_error.value, shorter.error) if math.isfinite(e))
     )
@@ -367,7 +347,7 @@ def _estimate_at_rest(
     count = len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if control is None:
-        error = _scatter(pairs, prepared.sample)
+        error = scatter_of_f(pairs, prepared.sample)
         return TwoLevelEstimate(
             control_strips=0,
             numbers=numbers,
@@ -381,27 +361,16 @@ def _estimate_at_rest(
     others = replace(
         control.sampling_error, value=math.sqrt(unsolved) * control.sampling_error.value * abs(numbers["coefficient"])
     )
-    error = add_errors(_scatter(pairs, prepared.sample, control, unsolved), others)
+    error = add_errors(scatter_of_f(pairs, prepared.sample, control, unsolved), others)
     between = float(np.std(control.numbers["coefficient"]))
     return TwoLevelEstimate(
         control_strips=control.count,
         numbers=numbers,
         error_of_f=error,
-        difference_error_of_f=_scatter(pairs, prepared.sample, control, 1.0),
+        difference_error_of_f=scatter_of_f(pairs, prepared.sample, control, 1.0),
         between=between,
         left_to_control=unsolved,
     )
-
-
-def samples_over_time(pairs: Sequence[StripOnTwoGrids]) -> list[TimeAndPlace]:
-    """Return what the places of strips rub at moments, of those ``pairs`` whose roughness moves; of a mirrored map one
-    half."""
-    samples = []
-    for pair in pairs:
-        places = pair.resolved.places_over_time
-        if places is not None:
-            samples.append(places.half() if pair.is_mirrored else places)
-    return samples
 
 
 def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
@@ -448,50 +417,3 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
 def mean(values: Iterable[float]) -> float:
     """Return the mean of any iterable."""
     return float(np.mean(list(values)))
-
-
-def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[str, float]) -> dict[str, float]:
-    """Return the relative standard errors of the ``numbers`` by their scatter between strips."""
-    if len(pairs) < STRIPS_FOR_SCATTER:
-        return {}
-    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
-    errors = {name: float(np.std([row[name] for row in rows], ddof=1)) / math.sqrt(len(rows)) for name in numbers}
-    return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
-
-
-def _scatter(
-    pairs: Sequence[StripOnTwoGrids], sample: Sample, control: ControlVariate | None = None, share: float = 0.0
-) -> StandardError:
-    """Return the standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the
-    differences of these strips by the ``control``. (The pairs are n of the N strips of the line. As Eq. (8) on the
-    pairs is part of that on the line, the whole sum scatters with the factor 1 - n/N.)
-
-    Strips show their scatter themselves, but few of them badly. Blocks within them show it at once, but off by up to a
-    factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
-    a measured map scatter more, their own scatter counts.
-    """
-    count = len(pairs)
-    places = [pair.resolved.deviations for pair in pairs]
-    f = np.array([pair.resolved.result.coefficient for pair in pairs])
-    if control is not None:
-        places = [values - share * control.deviations(k, values.size) for k, values in enumerate(places)]
-        f -= share * control.numbers["coefficient"][:count]
-    within = _error_by_blocks(places, sample, pairs[0])
-    by_blocks = count * (within.value * (DIFFERENCE_OVER_BLOCKS if control else STRIP_OVER_BLOCKS)) ** 2
-    if count == 1:
-        return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
-    by_strips = float(np.var(f, ddof=1))
-    if not math.isfinite(by_blocks):  # a short strip has no blocks
-        return StandardError(math.sqrt(by_strips / count), count - 1)
-    pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
-    if not sample.is_homogeneous and count >= STRIPS_FOR_SCATTER and by_strips > pooled:
-        return StandardError(math.sqrt(by_strips / count), count - 1)
-    return StandardError(math.sqrt(pooled / count), FREEDOM + count - 1)
-
-
-def _error_by_blocks(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
-    """Return the standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half
-    counts."""
-    kept = values[0].size // (2 if pair.is_mirrored else 1)
-    places = np.concatenate([one[:kept] for one in values])
-    return block_error(places, pair.resolved.problem.spacing[1], sample.correlation_lengths[1])
