@@ -1,5 +1,6 @@
 """The tables of the points of a curve, and its formula."""
 
+import math
 from html import escape
 
 import numpy as np
@@ -8,7 +9,7 @@ from ..models.shared import percent_or_less, sentence
 from ..quantities import COLUMNS
 from ..scene import Scene
 from ..studies import CurveResult, Law, StribeckResult
-from ..units import beside_interval, converted, interval_in_words, unit_for, unit_of_largest, with_interval
+from ..units import beside_interval, converted, interval_in_words, unit_for, unit_of_largest, with_interval, worded
 from .budget_bars import budget_labels
 from .curve_answer import largest_error_of_points, model_of_point
 from .describe import is_among
@@ -96,8 +97,28 @@ def details_of_points(curve: CurveResult) -> str:
         "model",
     ]
     touching = note_on_touching(point.min_film for point in curve.points if point is not None)
-    note = f"<p>{touching}</p>" if touching else ""
+    notes = filter(None, (touching, _error_of_loads(curve)))
+    note = "".join(f"<p>{escape(text)}</p>" for text in notes)
     return f"<details><summary>Details of every point</summary>{note}{table(heads, rows)}</details>" if rows else ""
+
+
+def _error_of_loads(curve: CurveResult) -> str:
+    """Return the largest standard error of the asperity load in a sentence, and where it is; "" where none is known."""
+    swept = curve.SWEPT[0]
+    errors = {
+        value: point.errors.contact_load * point.contact_load
+        for value, point in zip(getattr(curve, swept).tolist(), curve.points)
+        if point is not None and math.isfinite(point.errors.contact_load)
+    }
+    if not errors:
+        return ""
+    worst = max(errors, key=lambda value: errors[value])
+    size = worded(float(f"{errors[worst]:.2g}"), "N")
+    largest = f"up to {size} (at {worded(worst, COLUMNS[swept].unit)})" if len(errors) > 1 else size
+    return (
+        f"Asperity load and film load have a standard error of {largest}, by the scatter of the surface and by the "
+        "cells. That of f is smaller, because what rubs less is sheared more."
+    )
 
 
 def formula_of_curve(law: Law | str, curve: CurveResult) -> str:

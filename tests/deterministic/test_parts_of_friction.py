@@ -4,6 +4,7 @@ solved. Oracles: balances of forces and loads, Amontons' law on asperities, and 
 import pytest
 
 import lubfric
+from lubfric.models.deterministic import pieces, solve_strip, strip_on_two_grids
 
 NEEDLE = lubfric.load_scene("paper").with_(
     bodies={
@@ -74,3 +75,27 @@ def test_forces_add_up_to_f_within_what_their_loads_allow(name):
         assert 0 < result.couette_force < f_b * result.film_load  # the mean stress of these films is below f_b p
     else:
         assert result.couette_force == 0
+
+
+@pytest.mark.parametrize("speed", [0.003, 0.02])
+def test_a_strip_that_is_its_own_piece_has_all_parts_of_the_shorter_cells(speed):
+    """The oracle is the strip on the shorter cells itself: asperities carry more of the load on them, and both parts of
+    the film's force are smaller."""
+    prepared = lubfric.prepare(RESTING.with_(numerics={"sampling": "patch"}))
+    surface = lubfric.generate_surface((40, 40), 1.8e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=3)
+    longer = solve_strip(prepared.scene, surface, speed, map_coarsening=(2, 2))
+    shorter = solve_strip(prepared.scene, surface, speed, start=longer)
+    (before, after) = (strip_on_two_grids.numbers_of_strip(prepared, one.result) for one in (longer, shorter))
+    changed = pieces.changed_by_pieces(prepared, before, [(longer, shorter)])
+    names = ("coefficient", "contact_load", "film_load", "boundary_force", "couette_force", "rolling_force")
+    assert {name: changed[name] for name in names} == pytest.approx({name: after[name] for name in names}, rel=1e-9)
+    assert changed["min_film"] == min(before["min_film"], after["min_film"])
+
+
+def test_one_strip_states_the_error_of_its_loads():
+    """What asperities do not carry the film does: both loads are off by the same force."""
+    result = lubfric.friction(RESTING, 0.01)
+    errors = result.errors
+    assert 0 < errors.contact_load < 0.5
+    assert errors.boundary_force == pytest.approx(errors.contact_load, rel=1e-6)
+    assert errors.film_load * result.film_load == pytest.approx(errors.contact_load * result.contact_load, rel=0.2)

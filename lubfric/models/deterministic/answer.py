@@ -72,7 +72,7 @@ BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which publishe
 
 # Counted work of a strip [s] above which no cells are recommended: an hour. A convention.
 LONGEST_WORK = 3600.0
-FEW_STRIPS = "not known from fewer than three strips"
+FEW_STRIPS = "not known from fewer than three strips, where it is no load or force"
 UNSOLVED_CELLS = "shorter cells did not converge{}: the numerical error is twice the estimate from longer cells"
 WITHIN_WORK = " within the work of a point"
 MORE_WORK = "set a larger numerics.max_work"

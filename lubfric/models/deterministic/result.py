@@ -85,8 +85,8 @@ class DeterministicResult(Renamed, ModelDetails):
     speed : U [m/s]
     flow_film : flow/U [m]
     min_gap, mean_gap, central_gap : smallest gap, mean over the Hertz strip of the load, and mean at x = 0 [m]
-    rubbing_fraction, plastic_fraction : rubbing and plastic part of the Hertz strip [-]
-    rubbing_length : rubbing area per length of the line [m]
+    rubbing_fraction, plastic_fraction : part of the Hertz strip that rubs under pressure, and that is plastic [-]
+    rubbing_length : area that rubs under pressure, per length of the line [m]
     top_pressure : the largest in the film [Pa]
     given_off : film at U that touching cells of the Hertz strip give off, because their floor is kept full [m]
     approach : h0 [m]
@@ -275,6 +275,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     coefficients = [float(one.friction.mean()) / problem.load for one in (sheared, *others)]
     sliding = [float((one.boundary + one.couette).mean()) / problem.load for one in others]
     rubbing = sheared.rubbing
+    carrying = rubbing & (p > 0)  # a thin film without pressure, behind the contact, is no contact
     capped = rubbing & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
 
@@ -318,8 +319,8 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
         mean_gap=float(h[in_hertz].mean()),
-        rubbing_fraction=float(rubbing[in_hertz].mean()),
-        rubbing_length=float(rubbing.sum()) * dx / p.shape[1],
+        rubbing_fraction=float(carrying[in_hertz].mean()),
+        rubbing_length=float(carrying.sum()) * dx / p.shape[1],
         top_pressure=float(p[fluid & ~sheared.thin].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[in_hertz].mean()),
         given_off=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[in_hertz].sum())
