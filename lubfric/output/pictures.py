@@ -42,7 +42,7 @@ NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (
 
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
-PANEL_HEIGHTS = {"friction": 3.6, "load": 1.7, "film": 1.9, "temperature": 1.7}  # inch, at the usual width
+PANEL_HEIGHTS = {"friction": 3.0, "load": 1.5, "film": 2.0, "temperature": 1.5}  # inch, at the usual width
 HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8)  # inch, at the usual width: speeds, films, load ratios, f
 LAST_HEIGHT = 1.4  # inch, at the usual width: of friction force and power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
