@@ -140,7 +140,7 @@ def test_nothing_is_decided_by_reading_prose():
         ("statement.replace(*words)", True),
         ("self.report.message.partition(': ')", True),
         ("text.replace('sets this limit', 'set this limit')", True),
-        ("what == 'lambda ratio by closed forms'", True),
+        ("what == 'lambda ratio of the film'", True),
         ("name == BEFORE_STEPS", False),
         ("name == NO_WARNINGS", True),
         ("key.startswith('surface.')", False),

@@ -5,6 +5,7 @@ import re
 import tomllib
 from dataclasses import replace
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.estimate.full_load import full_load_numbers
 from lubfric.models.deterministic import (
     RoughBody,
     answer,
@@ -37,7 +37,7 @@ from lubfric.models.quick import (
     widening,
 )
 from lubfric.models.quick.calibrated_error import out_of_range
-from lubfric.models.shared import Assumption, inlet_at, speed_of
+from lubfric.models.shared import Assumption, speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -304,30 +304,30 @@ def test_auto_states_why_a_strip_has_too_many_cells_for_the_deterministic_model(
     assert decision.model == "quick" and re.search(reason, decision.text)
 
 
-def test_a_lambda_ratio_outside_the_campaign_is_that_of_the_result():
-    """Full-load films by another way: starved or heated, as far from the limit as Moes' film is from the campaign's."""
+def test_a_lambda_ratio_outside_the_campaign_has_the_limit_of_the_campaign():
+    """Whatever heat and starvation make of the film of the result; the page states the same range."""
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
-    largest = error_models()["rest"].range["moes_ratio"][1]
+    (low, high) = error_models()["rest"].range["moes_ratio"]
     for changed in (oil, {"inlet_length": 3e-5}):
         scene = PAPER.with_(lubricant=changed)
-        speed = 20.0
-        inlet, is_used = inlet_at(scene, speed)
-        factor = inlet.factor if is_used else math.nan
-        expected = full_load_numbers(scene, speed, scene.surface.sq, factor)["lambda_ratio"]
-        moes = scene.line_contact(speed).moes_film / scene.surface.sq
-        known = {name: (0.0, math.inf) for name in error_models()["rest"].range} | {"moes_ratio": (0.0, largest)}
-        (part,) = out_of_range(scene, scene.surface.sq, speed, known)
-        assert part.value == pytest.approx(expected, rel=1e-12) and expected < 0.99 * moes
-        assert math.log(part.value / part.limit) == pytest.approx(math.log(moes / largest), rel=1e-9)
-        assert part.distance == pytest.approx(math.log(moes / largest), rel=1e-9)
+        moes = scene.line_contact(20.0).moes_film / scene.surface.sq
+        known = {name: (0.0, math.inf) for name in error_models()["rest"].range} | {"moes_ratio": (0.0, high)}
+        (part,) = out_of_range(scene, scene.surface.sq, 20.0, known)
+        assert part.value == pytest.approx(moes) and part.limit == high
+        assert part.distance == pytest.approx(math.log(moes / high), rel=1e-9)
+    page = (Path(__file__).parents[2] / "docs" / "uncertainty.md").read_text(encoding="utf-8")
+    assert f"lambda ratios of {low:.1g} to {high:.2g}" in page
+
+
+FLOODED = "lambda ratio of a flooded, isothermal, Newtonian film"
 
 
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     text = "not calibrated for such contacts"
     quick_paper = PAPER.with_(numerics={"model": "quick"} | LOOSE)
     thin = point(LOOSE_PAPER, 1e-5, "quick")
-    assert [entry.what for entry in thin.validity if text in entry.consequence] == ["lambda ratio by closed forms"]
-    assert re.search(f"lambda ratio by closed forms is .*{text}", describe_scene(quick_paper, [1e-5]))
+    assert [entry.what for entry in thin.validity if text in entry.consequence] == [FLOODED]
+    assert re.search(f"{FLOODED} is .*{text}", describe_scene(quick_paper, [1e-5]))
     thick = lubfric.friction(quick_paper, 0.5)
     assert not any(text in entry.consequence for entry in thick.validity)
     assert text not in describe_scene(quick_paper, [0.5])

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
-from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
+from ..shared import Assumption, Violation, peak_hertz_pressure
 
 OUTSIDE = (
     "the quick model is not calibrated for such contacts, so its model-form error is increased, at most three times"
@@ -109,8 +109,7 @@ class Outside:
     """A number of a contact that is outside of the range of the campaign.
 
     what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range; is_thicker :
-        whether it is the film over Sq, and above the range. A lambda ratio and its limit are both as starvation, shear
-        thinning and the heat of the inlet make them, as the result has it
+        whether it is the film over Sq, and above the range
     """
 
     what: str
@@ -150,7 +149,7 @@ def out_of_range(
     }
     if sq and speed:
         values["moes_ratio"] = (
-            "lambda ratio by closed forms",
+            "lambda ratio of a flooded, isothermal, Newtonian film",
             scene.line_contact(abs(speed)).moes_film / sq,
             "",
         )
@@ -163,12 +162,11 @@ def out_of_range(
         # less sliding than in any case changes the stress by little; the part of rolling is counted apart
         is_slow = name == "slip" and value < low
         distance = low - value if is_slow else abs(math.log(value / limit))
-        factor = _full_load_factor(scene, speed) if name == "moes_ratio" else 1.0
         outside.append(
             Outside(
                 what=what,
-                value=factor * value,
-                limit=factor * limit,
+                value=value,
+                limit=limit,
                 unit=unit,
                 distance=distance,
                 is_thicker=name == "moes_ratio" and value > high,
@@ -180,14 +178,6 @@ def out_of_range(
             Outside(what=OTHER_LAWS, value=others, limit=0.0, unit="", distance=others * DISTANCE_OF_OTHER_OIL)
         )
     return tuple(outside)
-
-
-def _full_load_factor(scene: Scene, speed: float) -> float:
-    """Return the full-load film of a result at ``speed`` [m/s] over Moes' film, by which the campaign has its range."""
-    line = scene.line_contact(abs(speed))
-    inlet, is_used = inlet_at(scene, speed)
-    heat = inlet.factor if is_used and inlet is not None else 1.0
-    return line.expected_film_with(heat) / line.moes_film
 
 
 def reported(outside: Iterable[Outside]) -> Iterator[Outside]:
