@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Container
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,11 +18,15 @@ from ..models.shared import Violation, effect_in_words
 from ..quantities import NUMBERS, counted
 from .curve_answer import model_in_words
 from .describe import is_among
-from .picture_options import PictureOptions
+from .picture_options import WITHOUT_ADDED, PictureOptions
 from .pictures import plot_stribeck, plot_traction
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
+
+
+# Key of the speeds [m/s] of a record that were solved in addition to the requested ones.
+ADDED_SPEEDS = "added_speeds"
 
 
 def title_of_curve(name: str, points: list[dict[str, Any]]) -> str:
@@ -64,6 +69,21 @@ def points_of_record(source: Path, columns: Columns, record: dict[str, Any]) -> 
         first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
         raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
     return points
+
+
+def among_requested(
+    columns: Columns, points: list[dict[str, Any]], record: dict[str, Any], left_out: Container[str]
+) -> tuple[Columns, list[dict[str, Any]]]:
+    """Return ``columns`` and ``points`` without the added speeds of their ``record`` that are ``left_out``: all of
+    them, or the operating point."""
+    added = record.get(ADDED_SPEEDS, [])
+    if WITHOUT_ADDED not in left_out:
+        own = [operating_point_of_record(record)] if figures.OPERATING_POINT_MARK in left_out else []
+        added = [speed for speed in added if is_among(speed, own)]
+    if "ratio" in columns or not added:
+        return columns, points
+    shown = [i for i, speed in enumerate(columns["speed"].tolist()) if not is_among(speed, added)]
+    return type(columns)((name, column[shown]) for name, column in columns.items()), [points[i] for i in shown]
 
 
 def table_of(curve: studies.CurveResult) -> str:

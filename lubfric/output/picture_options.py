@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 PANELS = {"stribeck": ("friction", "load", "film"), "traction": ("friction", "load", "film", "temperature")}
 
 # Lines of a curve that a user may omit, by their names in its key.
+WITHOUT_ADDED = "added speeds"  # of --without: points that were solved in addition to the requested ones
 LINES = (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION, figures.OPERATING_POINT_MARK)
 
 # Choices, by looking at the figures.

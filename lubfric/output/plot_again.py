@@ -26,6 +26,7 @@ from .commands import (
 )
 from .contact_pictures import plot_contact
 from .curve_picture import (
+    among_requested,
     draw_curve,
     operating_point_of_record,
     points_of_record,
@@ -36,7 +37,7 @@ from .curve_picture import (
 from .fields import read_contact
 from .fit_picture import FIT, plot_fit, read_fit
 from .operating_point import operating_point_of
-from .picture_options import LINES, PANELS, PictureOptions
+from .picture_options import LINES, PANELS, WITHOUT_ADDED, PictureOptions
 from .pictures import plot_history
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR
 from .study_pictures import plot_study, solved_so_far
@@ -45,7 +46,7 @@ AXIS_SCALES = ("linear", "log")  # of an axis
 
 INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
 
-LEFT_OUT = ("warnings", "parts", "title", *LINES)  # of a picture, where a user does not want them
+LEFT_OUT = ("warnings", "parts", "title", WITHOUT_ADDED, *LINES)  # of a picture, where a user does not want them
 
 # Narrowest and widest picture [m]. A choice: it can be read and drawn.
 NARROWEST = 0.05
@@ -103,6 +104,7 @@ def plot_again(arguments: Namespace) -> None:
         )
     else:
         points = points_of_record(folder / f"{name}.csv", columns, record)
+        columns, points = among_requested(columns, points, record, _left_out(arguments))
         again = partial(
             draw_curve,
             columns=columns,
@@ -293,6 +295,12 @@ def _dpi(arguments: Namespace) -> float | None:
     return float(validate.integer("--dpi", arguments.dpi, minimum=LEAST_DPI, maximum=MOST_DPI))
 
 
+def _left_out(arguments: Namespace) -> list[str]:
+    """Return what --without names, of `LEFT_OUT`."""
+    words = [] if arguments.without is None else arguments.without.split(",")
+    return [validate.choice("--without", word.strip().replace("-", " "), LEFT_OUT) for word in words]
+
+
 def picture_options(arguments: Namespace, name: str) -> PictureOptions:
     """Return the options of the picture of the table ``name`` by the ``arguments`` of ``lubfric plot``."""
     panels = PANELS["traction"]
@@ -309,8 +317,7 @@ def picture_options(arguments: Namespace, name: str) -> PictureOptions:
         if name == "history":
             raise InputError(f"--interval is for a curve, and this is {TABLES[name]}; omit it")
         form = validate.choice("--interval", arguments.interval, INTERVAL_FORMS)
-    words = [] if arguments.without is None else arguments.without.split(",")
-    left_out = [validate.choice("--without", word.strip().replace("-", " "), LEFT_OUT) for word in words]
+    left_out = _left_out(arguments)
     lines = tuple(line for line in LINES if line in left_out)
     if lines and name not in PANELS:
         raise InputError(f"--without {lines[0]!r} is for a curve, and this is {TABLES.get(name, f'a {name}')}; omit it")

@@ -34,7 +34,7 @@ from .commands import (
 )
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .curve_answer import gap_notes
-from .curve_picture import draw_curve, drawable, record_of_point, table_of, title_of_curve
+from .curve_picture import ADDED_SPEEDS, draw_curve, drawable, record_of_point, table_of, title_of_curve
 from .describe import SceneEstimate, index_of_nearest, is_among, rolling_in_words, speeds_of_curve
 from .fields import fields_bytes, vtk_bytes
 from .operating_point import operating_point_not_solved, operating_point_of
@@ -245,6 +245,7 @@ def _write(
     of_record = {
         "points": numbers,
         "operating_point": operating_point_of(prepared.scene, curve.SWEPT[0]),
+        ADDED_SPEEDS: _added_speeds(prepared.scene, curve, arguments.speeds),
         "points_seconds": curve.total_seconds,
         "points_read": points_read,
     }
@@ -254,6 +255,15 @@ def _write(
             f"points that the interrupted run had solved: {points_read} of {len(curve.points)}"
         )
     folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, **of_record)
+
+
+def _added_speeds(scene: Scene, curve: studies.CurveResult, speeds: str | None) -> list[float]:
+    """Return the solved speeds [m/s] that neither --speeds nor the list of ``scene`` has: its own, and those whose
+    fields are drawn; none where no list was given."""
+    if not isinstance(curve, studies.StribeckResult) or speeds == studies.AUTO_SPEEDS:
+        return []
+    given = parse_speeds("--speeds", speeds) or list(scene.motion.speeds)
+    return [speed for speed in curve.speed.tolist() if given and not is_among(speed, given)]
 
 
 def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) -> RepeatedRun:

@@ -188,20 +188,20 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
 
 
 def test_lines_of_a_curve_are_omitted(figures, tmp_path, monkeypatch):
-    """By their names in the key, of both kinds of curve."""
-    options = []
-    monkeypatch.setattr(
-        "lubfric.output.plot_again.write_picture", lambda *each: options.append(each[-1].keywords["options"])
-    )
+    """By their names in the key, of both kinds of curve; and the speed that --fields added."""
+    drawn = []
+    monkeypatch.setattr("lubfric.output.plot_again.write_picture", lambda *each: drawn.append(each[-1].keywords))
     scene = tmp_path / "s.toml"
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
     out = str(tmp_path / "out")
-    assert main(["run", str(scene), "--speeds", "0.1", "--out", out]) == 0
+    assert main(["run", str(scene), "--speeds", "0.1", "--fields", "0.5", "--out", out]) == 0
     assert main(["plot", out]) == 0 and main(["plot", out, "--without", "asperity-friction, operating point"]) == 0
+    assert main(["plot", out, "--without", "added-speeds"]) == 0
+    assert [each["columns"]["speed"].tolist() for each in drawn] == [[0.1, 0.5], [0.1, 0.5], [0.1]]
     lines = {"asperity friction", "fluid friction", "operating point"}
     for plot, columns in ((plot_stribeck, COLUMNS), (plot_traction, COLUMNS | {"ratio": COLUMNS["speed"]})):
-        for chosen, shown in zip(options, (lines, {"fluid friction"})):
-            plot("x.png", columns, "title", [()] * 4, options=chosen, operating_point=0.1)
+        for known, shown in zip(drawn, (lines, {"fluid friction"})):
+            plot("x.png", columns, "title", [()] * 4, options=known["options"], operating_point=0.1)
             assert lines.intersection(figures[-1].axes[0].get_legend_handles_labels()[1]) == shown
 
 
