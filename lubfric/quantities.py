@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
@@ -440,10 +441,11 @@ def heading(name: str) -> str:
 
 
 def axis_label(name: str, in_unit: str = "") -> str:
-    """Return the label of an axis: long name, symbol and unit, its own or ``in_unit``."""
+    """Return the label of an axis: long name, symbol in italics and unit, its own or ``in_unit``."""
     unit, label, symbol = COLUMNS.get(name, Quantity("", name))[:3]
     unit = printed(in_unit) or unit
-    return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
+    formula = re.sub(r"_(\w+)", r"_{\1}", symbol).replace(" ", r"\,")
+    return " ".join((label, *([f"${formula}$"] if formula else []), *([f"({unit})"] if unit else [])))
 
 
 def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:

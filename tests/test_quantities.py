@@ -34,7 +34,8 @@ def test_every_key_of_the_table_is_a_key_of_a_scene():
 
 def test_words_for_columns_axes_tables_and_lines():
     assert q.heading("contact_load") == "contact_load [N]" and q.heading("line_length") == "line_length [m]"
-    assert q.axis_label("coefficient") == "friction coefficient f (-)"
+    assert q.axis_label("coefficient") == "friction coefficient $f$ (-)"
+    assert q.axis_label("boundary_force", "kN").endswith(r" $f_{b}\,F_{C}$ (kN)")
     assert q.axis_label("surface.seed") == "surface.seed"
     assert q.described("bodies.load") == {"units": "N", "long_name": "total load"}
     assert q.described("surface.seed") == {"long_name": "seed"}

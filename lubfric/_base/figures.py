@@ -238,7 +238,7 @@ def speed_label(speed: np.ndarray) -> str:
     """Return the label of a logarithmic axis of entrainment ``speed`` [m/s], which shows its magnitude."""
     if not (speed < 0).any():
         return axis_label("speed")
-    return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
+    return f"entrainment speed $|U|$ (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
 def shift_right(axes: Axes, artists: Iterable[Artist], distance: float) -> None:

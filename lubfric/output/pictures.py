@@ -163,8 +163,8 @@ def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
     sq = separation / c["film_to_roughness_ratio"]
     if np.isfinite(sq).all() and (sq > 0).all():  # not of smooth surfaces
         for times, dashes, name in (
-            (1, "--", f"Λ = 1 (Sq of solved surface {worded(float(sq[0]), 'm')})"),
-            (3, ":", "Λ = 3"),
+            (1, "--", f"$Λ$ = 1 (Sq of solved surface {worded(float(sq[0]), 'm')})"),
+            (3, ":", "$Λ$ = 3"),
         ):
             axes.axhline(times * sq[0] * scale, color=figures.GREY, lw=0.8, ls=dashes, label=name)
     figures.key_above(axes, 2)

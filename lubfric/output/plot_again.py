@@ -254,6 +254,8 @@ def _plot_contact_again(arguments: Namespace) -> None:
     _refuse(arguments, of_curves, "is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
     options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))
+    if options.is_narrow and contact.fields is not None:
+        say(f"for the caption, as a narrow picture has no room for it: {contact.fields.solve}")
     write_picture(arguments, f"contact_at_{contact.speed:.4g}", partial(plot_contact, contact=contact, options=options))
 
 

@@ -164,7 +164,10 @@ def _draw_films(axes: Axes, numbers: Mapping[str, float], options: PictureOption
         numbers["central_film"] / numbers["film_to_roughness_ratio"] if numbers["film_to_roughness_ratio"] else math.nan
     )
     if sq > 0:  # not of smooth surfaces
-        for ratio, dashes, name in ((1, "--", f"Λ = 1 (Sq of solved surface {worded(sq, 'm')})"), (3, ":", "Λ = 3")):
+        for ratio, dashes, name in (
+            (1, "--", f"$Λ$ = 1 (Sq of solved surface {worded(sq, 'm')})"),
+            (3, ":", "$Λ$ = 3"),
+        ):
             axes.axvline(ratio * times * sq, color=figures.GREY, lw=0.8, ls=dashes, label=name)
         figures.key_above(axes, 2)
     axes.set(xscale="log", xlabel=f"film thickness ({printed(unit)})")

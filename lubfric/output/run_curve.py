@@ -282,14 +282,16 @@ def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) ->
 def _write_fields(
     folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, chosen: list[float], *, vtk: bool
 ) -> None:
-    """Write the fields of the ``chosen`` speeds [m/s], and their pictures."""
+    """Write the fields of the ``chosen`` speeds [m/s], and the pictures of the one nearest to the scene's own."""
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
         folder.add("fields.npz", fields_bytes, points, prepared.scene.bodies.half_width)
-        folder.draw("contact.png", plot_contact, drawn_contact(prepared, points[0]))
-        if points[0].compared_fields is not None:
-            folder.draw("sharing.png", plot_contact, compared_contact(prepared, points[0]))
+        own = operating_point_of(prepared.scene, curve.SWEPT[0])
+        drawn = points[index_of_nearest([point.speed for point in points], own, are_speeds=True)]
+        folder.draw("contact.png", plot_contact, drawn_contact(prepared, drawn))
+        if drawn.compared_fields is not None:
+            folder.draw("sharing.png", plot_contact, compared_contact(prepared, drawn))
     if vtk:
         touching = [p for p in points if p.shows_contact]
         for i, point in enumerate(touching):

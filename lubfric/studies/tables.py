@@ -38,7 +38,10 @@ BAND = "95 % interval"
 # 5 pt wide.
 BAR_DISTANCE = 4.0
 
-# Width [pt] and opacity of the edges of a band over another one. A choice, by looking at the figures.
+# Opacity of a band of intervals. A choice, by looking at the figures.
+BAND_ALPHA = 0.2
+
+# Width [pt] and opacity of the edges of bands over each other. A choice, by looking at the figures.
 BAND_EDGE_WIDTH = 0.8
 BAND_EDGE_ALPHA = 0.6
 # Lines of operating points, at most. A choice, by looking at the figures.
@@ -252,8 +255,10 @@ def interval_band(
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
     the model and the finite surface leave by themselves, unless not ``has_parts``; ``as_bars``: as a bar at each point
     instead. ``line``: (speeds, f) of a smooth curve to draw the band about. ``color``: of all of it. ``others``: number
-    of curves on the axes already, beside whose bars those of this one are, and in whose bands its band has edges.
+    of curves on the axes already, beside whose bars those of this one are; all bands have edges then.
     Returns the thin lines."""
+    from matplotlib.colors import to_rgba
+
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -286,9 +291,12 @@ def interval_band(
         return []
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
-    ax.fill_between(wide, sides[0], sides[1], color=color, alpha=0.2, lw=0, label=band)
-    for side in sides if others else ():
-        ax.plot(wide, side, color=color, lw=BAND_EDGE_WIDTH, alpha=BAND_EDGE_ALPHA)
+    drawn_band = ax.fill_between(wide, sides[0], sides[1], fc=to_rgba(color, BAND_ALPHA), lw=0, label=band)
+    drawn_band.set_gid(BAND)
+    for each in ax.collections if others else ():
+        if each.get_gid() == BAND:  # of this curve and of the others
+            (red, green, blue, _) = np.asarray(each.get_facecolor())[0].tolist()
+            each.set(edgecolor=(red, green, blue, BAND_EDGE_ALPHA), linewidth=BAND_EDGE_WIDTH)
     freedom = columns.get("sampling_freedom", unknown)
     of_sample = [half_width_of_error(*pair) for pair in zip(columns.get("sampling_error", unknown), freedom)]
     at_95 = dict(columns) | {"sampling_error": np.array(of_sample)}
