@@ -378,10 +378,12 @@ def map_checksums(scene: Scene) -> dict[str, str]:
 
 
 class CommandStart(NamedTuple):
-    """When a command began [s], by `time.perf_counter`, and the processor time that had passed then."""
+    """When a command began [s], by `time.perf_counter`, the processor time that had passed then, and the processor time
+    of the earlier calls that it continues."""
 
     moment: float
     processor: float
+    earlier: float = 0.0
 
     @classmethod
     def now(cls) -> CommandStart:
@@ -395,12 +397,14 @@ class CommandStart(NamedTuple):
 
     @property
     def processor_seconds(self) -> float:
-        """The processor time [s] since then, with that of the worker processes."""
-        return processor_time() - self.processor
+        """The processor time [s] since then, with that of the worker processes and of the earlier calls."""
+        return self.earlier + processor_time() - self.processor
 
     def in_words(self) -> str:
         """Return the elapsed and the processor time since then, as text: the latter is what a command estimates."""
-        return f"{self.seconds:.1f} s ({self.processor_seconds:.1f} s of processor time, all processes together)"
+        of_earlier = f", {self.earlier:.1f} s of it before this call" if self.earlier else ""
+        spent = f"{self.processor_seconds:.1f} s of processor time, all processes together"
+        return f"{self.seconds:.1f} s ({spent}{of_earlier})"
 
 
 class RunFolder:
@@ -476,6 +480,7 @@ class RunFolder:
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
             "seconds": self.begun.seconds,
             "processor_seconds": self.begun.processor_seconds,
+            "earlier_processor_seconds": self.begun.earlier,
             "continued": self.continues,
             "hash": self.fingerprint,
             "report": result.report.as_dict(),

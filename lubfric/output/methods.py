@@ -95,10 +95,11 @@ def _times(record: dict[str, Any]) -> list[tuple[str, str]]:
     if continues and "points_read" in record:
         known = f"{record['points_read']} of {len(record['points'])}"
         rows.append(("points that the interrupted run had solved", known))
+    of_calls = " of the run" if record.get("earlier_processor_seconds") else of_call
     return [
         *rows,
         (f"wall-clock time{of_call}", plain_number(record["seconds"], "s")),
-        (f"processor time, all processes together{of_call}", plain_number(record["processor_seconds"], "s")),
+        (f"processor time, all processes together{of_calls}", plain_number(record["processor_seconds"], "s")),
     ]
 
 

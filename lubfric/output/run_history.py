@@ -11,6 +11,7 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
+from ..studies import in_words
 from ..time import RunEstimate, TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
 from . import commands
 from .describe import FILES_SECONDS
@@ -45,10 +46,6 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
         nonlocal reached, reported
-        if reached == 0.0:
-            left.end(BEFORE_STEPS)
-            for each in stored_before(now) if continues else ():
-                left.omit(each)
         left.end(now)
         reached = now
         part = run.part(now)
@@ -69,14 +66,28 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
         )
 
-    def stored_before(now: float) -> list[float]:
-        return [each for each in left.expected if each != BEFORE_STEPS and each < now]
+    def on_begin(now: float, earlier: float) -> None:
+        nonlocal reached
+        reached = now
+        left.end(BEFORE_STEPS)
+        for each in [each for each in left.expected if each <= now]:
+            left.omit(each)
+        folder.begun = folder.begun._replace(earlier=earlier)
+        share = 100.0 * now / duration
+        shown.update(share, 100.0)
+        if now > 0.0:
+            commands.say(
+                f"the run continues at t = {now:.5g} s, {share:.1f} % of the duration, which took {in_words(earlier)} of "
+                "processor time"
+            )
 
     def kept() -> str:
         if reached == 0.0:
             return f"the state that an earlier run saved is kept in {arguments.out}" if continues else ""
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
+    assert scene.transient is not None
+    duration = scene.transient.duration
     fastest = fastest_of_run(scene)
     begun = commands.run_begun(scene, arguments, names, kept)
     with begun as (folder, prepared, estimate):
@@ -88,8 +99,9 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         run = estimate.run
         left = _time_left(scene, run)
         with ProgressLine("% of the duration", left) as shown:
-            shown.update(0.0, 100.0)
-            result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
+            if not continues:
+                shown.update(0.0, 100.0)
+            result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_begin=on_begin, on_step=on_step)
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:

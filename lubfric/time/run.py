@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._base import limited_work, unlimited_work, validate, with_default_errors
+from .._base.processor_time import processor_time
 from ..errors import InputError, WorkLimitError
 from ..estimate import most_work_of_estimate
 from ..models.shared import Prepared, Violation, refused, scene_of
@@ -25,7 +26,8 @@ from .scene_in_time import transient_of
 
 # Classes that a state or an output of a run may hold.
 RUN_CLASSES = classes_of(Progress, Output, Violation, *(run.state_class for run in RUNS.values()))
-STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
+# What is kept of a run: how many outputs there are, its progress, and the processor time until then [s].
+STATE = tuple[int, Progress, float]
 
 
 @with_default_errors
@@ -107,13 +109,16 @@ def run_in_time(
     *,
     checkpoint: str | Path | None = None,
     on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
+    on_begin: Callable[[float, float], None] | None = None,
 ) -> tuple[TransientResult, list[str]]:
     """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
-    ``checkpoint`` keeps."""
+    ``checkpoint`` keeps. ``on_begin``: called before the first step as on_begin(time, seconds), with the time [s] from
+    which the run continues, and the processor time of the calls that solved it until there."""
+    begun = processor_time()
     validate.called_back("on_step", on_step, "time, duration, row")
     scene, times = _with_times(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf
-    with limited_work(limit) as begun:
+    with limited_work(limit) as counted:
         start = run_model_of(scene_of(scene)).start(scene)
     model = start.model
     section = transient_of(model.scene)
@@ -126,7 +131,15 @@ def run_in_time(
         limit = most_work_of_estimate(seconds)
     with opened(checkpoint, RUN_CLASSES, "checkpoint") as store:
         progress, outputs, ended = _marched(
-            model, start.state, plan, store, key, on_step, most_work=limit - begun.spent
+            model,
+            start.state,
+            plan,
+            store,
+            key,
+            on_begin=on_begin,
+            on_step=on_step,
+            most_work=limit - counted.spent,
+            begun=begun,
         )
     result = collect(model, start.grid_error, plan, progress, outputs, limit if ended else math.inf)
     return result, [key, *_output_keys(key, len(outputs))]
@@ -142,14 +155,16 @@ def _marched(
     plan: Plan,
     store: Store,
     key: str,
-    on_step: Callable[..., Any] | None,
     *,
+    on_begin: Callable[..., Any] | None,
+    on_step: Callable[..., Any] | None,
     most_work: float,
+    begun: float,
 ) -> tuple[Progress, list[Output], bool]:
     """Return the last progress of a run, its outputs, and whether ``most_work`` [s] of counted work ended it. The run
     continues from where the ``store`` has it under ``key``, if it does: from its state, with all outputs that the state
-    counts, which were stored before it."""
-    count, progress = store.get(key, STATE) or (0, initial_progress(start, plan))
+    counts, which were stored before it. ``begun``: the processor time [s] at the begin of the call."""
+    count, progress, earlier = store.get(key, STATE) or (0, initial_progress(start, plan), 0.0)
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
     if len(outputs) < count:  # one was damaged, which the store has reported
         progress = initial_progress(start, plan)
@@ -159,6 +174,8 @@ def _marched(
         outputs.append(model.record(progress))
         store.add(_output_keys(key, len(outputs))[-1], outputs[-1], sync=True)
 
+    if on_begin is not None:
+        on_begin(progress.time, earlier)
     if not outputs and plan.times[0] == 0.0:
         record(progress)
     try:
@@ -168,7 +185,8 @@ def _marched(
                     if progress.at_output:
                         record(progress)
                     if store.folder is not None:
-                        store.add(key, (len(outputs), model.resumable(progress)), sync=True)
+                        spent = earlier + processor_time() - begun
+                        store.add(key, (len(outputs), model.resumable(progress), spent), sync=True)
                     if on_step is not None:
                         on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
     except WorkLimitError:

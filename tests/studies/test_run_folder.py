@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -287,6 +288,12 @@ def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, cap
     assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().err
     assert "the run continues from" in said and "not used" not in said
+    words = " ".join(said.split())
+    assert 0.0 < float(re.search(r"continues at t = \S+ s, (\S+) % of the duration, which took", words)[1]) < 100.0
+    in_all, before = re.search(r"\((\S+) s of processor time, all processes together, (\S+) s of it", words).groups()
+    record = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert 0.0 < record["earlier_processor_seconds"] == pytest.approx(float(before), abs=0.06)
+    assert record["earlier_processor_seconds"] < record["processor_seconds"] <= float(in_all) + 0.06
     complete(tmp_path / "out")
     same(tmp_path / "out", whole_history)
 
