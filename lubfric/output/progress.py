@@ -7,6 +7,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from shutil import get_terminal_size
@@ -31,12 +32,15 @@ class ProgressLine:
 
     A ``unit`` that begins with "%" is of a total of 100. ``time_left``: of work whose parts are estimated; else the
     time left is that of what is done so far. The line is a bar of tqdm where that is installed (``pip install
-    'lubfric[progress]'``), else plain text.
+    'lubfric[progress]'``), else plain text. ``remark``: returns what else is to be said, or ""; a terminal gets it on a
+    line of its own, once until it is "" again.
     """
 
-    def __init__(self, unit: str, time_left: TimeLeft | None = None):
+    def __init__(self, unit: str, time_left: TimeLeft | None = None, remark: Callable[[], str] = str):
         self.unit = unit
         self.time_left = time_left
+        self.remark = remark
+        self._is_remarked = False
         self._said = time.monotonic()
         self.done = 0.0
         self.total = 0.0
@@ -95,7 +99,7 @@ class ProgressLine:
             text += self.time_left.in_words()
         elif self.total and solved > 0:
             text += f", about {in_words(passed * (self.total - self.done) / solved)} left"
-        return f"{text}; {self.part}" if self.part else text
+        return "; ".join(filter(None, (text, self.part, self.remark())))
 
     def draw(self) -> None:
         """Draw the line as it is now."""
@@ -135,7 +139,17 @@ class ProgressLine:
 
     def _draw_often(self) -> None:
         while not self._ended.wait(REFRESH):
+            self._say_remark()
             self.draw()
+
+    def _say_remark(self) -> None:
+        """Write the remark, unless it is there already."""
+        remark = self.remark()
+        if remark and not self._is_remarked:
+            self.clear()
+            with self._lock, suppress(OSError, ValueError, AttributeError):
+                sys.stderr.write(f"{remark}\n")
+        self._is_remarked = bool(remark)
 
 
 def state_part(text: str) -> bool:

@@ -20,6 +20,7 @@ from .history_answer import history_answer
 from .pictures import animate, plot_history
 from .progress import ProgressLine
 from .run_files import names_of_run
+from .slow_run import SlowRun
 from .time_left import TimeLeft
 
 # Part of the expected steps of a run between two lines of its progress. A choice: some 25 lines.
@@ -47,6 +48,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
         nonlocal reached, reported
         left.end(now)
+        slow.step(now)
         reached = now
         part = run.part(now)
         share = 100.0 * now / duration
@@ -70,6 +72,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         nonlocal reached
         reached = now
         left.end(BEFORE_STEPS)
+        slow.begin(now, earlier)
         for each in [each for each in left.expected if each <= now]:
             left.omit(each)
         folder.begun = folder.begun._replace(earlier=earlier)
@@ -80,6 +83,11 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
                 f"the run continues at t = {now:.5g} s, {share:.1f} % of the duration, which took {in_words(earlier)} of "
                 "processor time"
             )
+
+    def speed_at(now: float) -> float:
+        assert scene.transient is not None
+        speed = scene.transient.speed
+        return scene.motion.entrainment_speed if speed is None else speed.before(now)
 
     def kept() -> str:
         if reached == 0.0:
@@ -98,7 +106,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         assert estimate.run is not None
         run = estimate.run
         left = _time_left(scene, run)
-        with ProgressLine("% of the duration", left) as shown:
+        slow = SlowRun(run.seconds, duration, speed_at)
+        with ProgressLine("% of the duration", left, lambda: slow.text) as shown:
             if not continues:
                 shown.update(0.0, 100.0)
             result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_begin=on_begin, on_step=on_step)

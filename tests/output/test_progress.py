@@ -11,6 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from lubfric.output import ProgressLine, main, progress
 from lubfric.output.commands import moment_reports, say
 from lubfric.output.progress import CLEAR_LINE
+from lubfric.output.slow_run import SlowRun
 
 
 class Terminal(io.StringIO):
@@ -62,6 +63,39 @@ def test_how_far_a_point_is_stands_on_the_line_of_a_terminal_alone(monkeypatch, 
         shown.update(2, 4)
         assert "moving" not in shown.text
     assert "\n" not in stream.getvalue()
+
+
+def test_a_slow_run_says_where_it_is_slow_and_what_can_be_done():
+    """Of 100 s of a run of 20 ms that is estimated at 200 s: 15 s for each hundredth, then 25 s for one, 5 steps in
+    it."""
+    now = [7.0]
+    slow = SlowRun(200.0, 20e-3, lambda time: 1e3 * time, spent=lambda: now[0])
+    slow.begin(0.0, earlier=30.0)
+    for step in range(1, 4):
+        now[0] += 15.0
+        assert not slow.text
+        slow.step(2e-4 * step)
+    for _ in range(5):
+        now[0] += 5.0
+        slow.step(6.1e-4)
+    assert slow.text.startswith(
+        "slow at t = 600 µs, U = 0.6 m/s, 5 steps in 25 s: 100 s of processor time, estimated 3.3 min"
+    )
+    assert slow.text.endswith("its state is kept, and the same command continues it")
+    slow.step(8.1e-4)
+    assert not slow.text
+    now[0] += 501.0
+    slow.step(2e-3)
+    assert slow.text.startswith("slow at t = 2 ms, U = 2 m/s: 10 min of")  # three times as long as estimated in all
+
+
+def test_a_terminal_gets_a_remark_once_on_a_line_of_its_own(monkeypatch, quick):
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with ProgressLine("points", remark=lambda: "slow here") as shown:
+        shown.update(1, 4)
+        time.sleep(0.1)
+    assert stream.getvalue().count("slow here\n") == 1 and shown.text.endswith("; slow here")
 
 
 def test_a_file_gets_no_progress(monkeypatch, quick, tmp_path):
