@@ -86,7 +86,6 @@ def _parts_of_model(scene: Scene, result: TransientResult, index: int, model: fl
     ``index``."""
     load = float(result.load[index])
     sense = float(sense_of_friction_over_time(result.columns)[index])
-    sense *= -1.0 if result.coefficient[index] < 0 else 1.0
     rolling = sense * float(result.rolling_force[index]) / load
     errors = load_sharing_error_parts(
         float(result.film_to_roughness_ratio[index]),
@@ -99,7 +98,7 @@ def _parts_of_model(scene: Scene, result: TransientResult, index: int, model: fl
         BY_SHARE: errors.of_share.towards,
         BY_FILM_SHEAR: errors.of_film,
         BY_FLANKS: errors.of_flanks,
-        BY_CONTACT: errors.in_contact * abs(float(result.coefficient[index])),
+        BY_CONTACT: errors.in_contact,
     }
     of_equation = min(sum(known.values()), abs(float(result.coefficient[index])))
     return known | {BY_HEAT_OF_MODEL: math.sqrt(max(model**2 - of_equation**2, 0.0))}

@@ -436,7 +436,7 @@ def _beside_asperities(largest: np.ndarray, boundary: np.ndarray, columns: dict[
     model-form error of the asperity load ratio."""
     share = columns["contact_load"] / columns["load"]
     ratios = columns["film_to_roughness_ratio"]
-    least = np.array([least_error(ratio) for ratio in ratios.tolist()])
+    least = np.array([least_error(*each) for each in zip(ratios.tolist(), share.tolist())])
     by_film = np.minimum(
         1.0 - share + np.maximum(OF_SHARE * np.sqrt(share * np.clip(1.0 - share, 0.0, 1.0)), least), 1.0
     )

@@ -597,7 +597,7 @@ def test_a_starved_answer_takes_the_strips_that_its_tolerance_asks_for():
 
 
 def test_no_error_law_vanishes_while_a_film_is_present():
-    assert least_error(0.5) > 0.04
+    assert least_error(0.5, 1.0) > 0.04
     assert starved_error(1e-7, 1e-7) == pytest.approx(tuple(10 * part for part in starved_error(1e-8, 1e-7)))
     starved = lubfric.friction(PAPER.with_(lubricant={"inlet_film": 1.2e-7}), 0.03, model="quick")
     low, high = starved.uncertainty.interval

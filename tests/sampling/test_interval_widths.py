@@ -12,6 +12,7 @@ from scipy import ndimage
 import lubfric
 from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
 from lubfric.models.load_sharing import (
+    least_error,
     load_of_tail,
     load_sharing_error,
     moment_model_error,
@@ -32,6 +33,7 @@ from lubfric.output import budget_bars
 from lubfric.output.run_curve import _doubts
 from lubfric.quantities import OF_UNCERTAINTY
 from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
+from verification.campaigns.calibration.table import rows as calibration_rows
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -126,6 +128,51 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
     )  # no less for a touch
     assert load_sharing_error(math.inf, share=0.0, boundary=0.0, shear=0.03) == (0.0, 0.0)
     assert max(load_sharing_error(0.1, share=0.99999, boundary=0.0899991, shear=1e-7)) < 3e-3
+
+
+PARTS_OF_F = [(0.11, 0.03, 0.0), (0.11, 0.3, 0.0), (0.11, 0.002, -0.003), (0.0, 4e-4, 4e-4)]
+
+
+@pytest.mark.parametrize("ratio", [0.3, 2.0, 6.0])
+@pytest.mark.parametrize(("on_asperities", "on_film", "rolling"), PARTS_OF_F)
+def test_the_error_of_load_sharing_has_no_step_and_is_the_same_in_both_senses(ratio, on_asperities, on_film, rolling):
+    """In f itself over the larger friction of both parts, from no contact to all; the law is a square root at its ends,
+    so steps of 1e-7 in the share move it by some 1e-4. -f has the sides of f."""
+    largest = max(on_asperities, on_film)
+
+    def ends(share, sense=1.0):
+        boundary = sense * on_asperities * share
+        shear = sense * (on_film + rolling) * (1 - share)
+        flanks = sense * rolling * (1 - share)
+        sides = load_sharing_error(ratio, share=share, boundary=boundary, shear=shear, rolling=flanks)
+        f = boundary + shear
+        return np.array([f - abs(f) * sides.below_and_above(f)[0], f + abs(f) * sides.below_and_above(f)[1]])
+
+    shares = np.concatenate([[0.0], np.geomspace(1e-9, 0.5, 150), 1 - np.geomspace(1e-9, 0.5, 150)])
+    steps = [np.abs(ends(min(share + 1e-7, 1.0)) - ends(share)) for share in shares]
+    assert np.max(steps) < 1e-3 * largest
+    for share in shares[::10]:
+        np.testing.assert_allclose(ends(share, -1.0)[::-1], -ends(share), rtol=1e-12)
+    assert least_error(ratio, 0.0) == 0.0 and least_error(ratio, 0.1) == 0.1 * min(ratio, 1.0)
+
+
+def test_the_error_of_load_sharing_covers_what_it_was_measured_on():
+    """Stored contacts of oils with a limit of their stress, solved by both models: from a tenth of the load on asperities
+    the law in contact is that which was measured, 0.25 sqrt(1 - s) of f beside the other parts."""
+    inside = []
+    for motion in ("rest", "rolling"):
+        for row in calibration_rows(motion):
+            if row["failure"] or row["fluid"] == "newtonian":
+                continue
+            share, boundary, couette, rolling = (
+                float(row[f"ls_{n}"]) for n in ("contact", "boundary", "couette", "rolling")
+            )
+            parts = {"share": share, "boundary": boundary, "shear": couette + rolling}
+            moving = rolling if motion == "rolling" else 0.0
+            sides = load_sharing_error(float(row["ls_lambda"]), rolling=moving, **parts)
+            change = float(row["det_f"]) / (boundary + couette + rolling) - 1
+            inside.append(-sides.towards <= change <= sides.away)
+    assert len(inside) > 400 and np.mean(inside) > 0.92
 
 
 def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():

@@ -10,7 +10,7 @@ from ..shared import Sides
 # docs/measurements.md.
 OF_SHARE = 0.7
 
-# Error of f in contact over sqrt(1 - s). Measured by that command.
+# Error of f in contact over sqrt(1 - s), from some s = 0.1 on. Measured by that command.
 IN_CONTACT = 0.25
 
 # Error of the shear force of the film times the square of the film-to-roughness ratio (central film over Sq), over that
@@ -50,9 +50,10 @@ def load_sharing_error(
     parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things
     may be off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, but never below 0 or above
     the whole, which exchanges the friction of one part for that of the other; the shear of the film, which is that of
-    smooth surfaces, by 3.2/r² of it, at most 30 %; in contact all of f by 0.25 sqrt(1 - s): towards 0, of what the
-    others leave; and the pressure on the flanks of moving roughness, which is omitted, by up to 8 times the rolling
-    force, and 18/r² times for thick films. 0 without roughness.
+    smooth surfaces, by 3.2/r² of it, at most 30 %; in contact all of f by 0.25 sqrt(1 - s), but by no more than what
+    0.7 sqrt(s (1 - s)) of the load rubs on asperities or film, whichever is more, so that it begins with the contact:
+    towards 0, of what the others leave; and the pressure on the flanks of moving roughness, which is omitted, by up to
+    8 times the rolling force, and 18/r² times for thick films. 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
@@ -61,23 +62,21 @@ def load_sharing_error(
         film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=rolling
     )
     of_film = (parts.of_film + parts.of_flanks) / f
-    if not 0 < share < 1:
-        return Sides(of_film, of_film)
     towards, away = (of_film + each / f for each in parts.of_share)
-    of_all = parts.in_contact
+    of_all = parts.in_contact / f
     return Sides(towards + max(1 - towards, 0.0) * of_all, away + of_all)
 
 
 @dataclass(frozen=True, kw_only=True)
 class LoadSharingErrorParts:
-    """The parts of `load_sharing_error`, in f itself but for the last.
+    """The parts of `load_sharing_error`, in f itself.
 
     Attributes
     ----------
     of_share : by how film and asperities divide the load, towards 0 and away from it
     of_film : by the shear of the film, as that of smooth surfaces
     of_flanks : by the pressure on the flanks of moving roughness
-    in_contact : of all friction in contact, relative
+    in_contact : of all friction in contact
     """
 
     of_share: Sides
@@ -94,15 +93,19 @@ def load_sharing_error_parts(
     of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear)
     if not 0 < share < 1:
         return LoadSharingErrorParts(of_share=Sides(0.0, 0.0), of_film=of_film, of_flanks=of_flanks, in_contact=0.0)
-    exchanged = boundary / share - shear / (1 - share)
-    rooms = (share, 1 - share) if exchanged > 0 else (1 - share, share)
+    f = boundary + shear
+    on_asperities = boundary / share
+    on_film = shear / (1 - share)
+    exchanged = on_asperities - on_film
+    # asperities that rub more than the film, in the sense of f: less load on them leads towards 0
+    rooms = (share, 1 - share) if exchanged * f > 0 else (1 - share, share)
     of_share = OF_SHARE * math.sqrt(share * (1 - share))
     towards, away = (min(of_share, room) * abs(exchanged) for room in rooms)
     return LoadSharingErrorParts(
         of_share=Sides(towards, away),
         of_film=of_film,
         of_flanks=of_flanks,
-        in_contact=IN_CONTACT * math.sqrt(1 - share),
+        in_contact=min(IN_CONTACT * math.sqrt(1 - share) * abs(f), of_share * max(abs(on_asperities), abs(on_film))),
     )
 
 
@@ -117,7 +120,8 @@ def starved_error(inlet_film: float, gap: float) -> Sides:
     return Sides(STARVED_ERROR.towards * filled, STARVED_ERROR.away * filled)
 
 
-def least_error(film_to_roughness_ratio: float) -> float:
+def least_error(film_to_roughness_ratio: float, share: float) -> float:
     """Return the least relative error of f by Eq. (8) where a film is present, however much of the load the asperities
-    carry: it does not vanish with the load of the film."""
-    return LEAST_WITH_FILM * min(film_to_roughness_ratio, 1.0)
+    carry: it does not vanish with the load of the film. Where the ``share`` of the asperities vanishes, it does so with
+    the error of that share."""
+    return min(LEAST_WITH_FILM * min(film_to_roughness_ratio, 1.0), OF_SHARE * math.sqrt(share))

@@ -263,7 +263,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[Sides, tuple[str, ...]
     )
     if scene.lubricant.inlet_film is not None and share > 0:
         sides = added_sides([sides, starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)])
-    return sides.capped(), ()
+    return _of_sliding(sides, forces.shear.rolling), ()
 
 
 def moment_model_error(
@@ -284,19 +284,22 @@ def moment_model_error(
     """
     if why_moment_unknown(scene):
         return UNKNOWN_SIDES
-    # where f is below 0, by rolling, more load on asperities leads towards 0
-    sense = -1.0 if boundary + shear < 0 else 1.0
     sides = _error_of_shared_load(
         scene,
         film_to_roughness_ratio,
         share=share,
         is_shared=share > 0 and film_load > 0,
-        boundary=sense * boundary,
-        shear=sense * shear,
-        rolling=sense * rolling,
+        boundary=boundary,
+        shear=shear,
+        rolling=rolling,
     )
-    # only a rolling part that helps the sliding takes f beyond 0
-    return sides_of_parts(_parts_of_model(sides.capped() if rolling >= 0 else sides, by_heat))
+    return sides_of_parts(_parts_of_model(_of_sliding(sides, rolling), by_heat))
+
+
+def _of_sliding(sides: Sides, rolling: float) -> Sides:
+    """Return the relative ``sides`` of f, towards 0 at most all of it: only a ``rolling`` part that helps the sliding,
+    below 0, takes f beyond 0."""
+    return sides.capped() if rolling >= 0 else sides
 
 
 def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart, ...]:
@@ -317,7 +320,7 @@ def _error_of_shared_load(
     """
     moving = rolling if has_moving_roughness(scene) else 0.0
     sides = load_sharing_error(ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
-    least = least_error(ratio) if is_shared and math.isfinite(ratio) else 0.0
+    least = least_error(ratio, share) if is_shared and math.isfinite(ratio) else 0.0
     return sides.at_least(least)
 
 
