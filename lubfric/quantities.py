@@ -126,7 +126,8 @@ class Quantities(Generic[T]):
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
         error="shear",
-        note="moment of the load about the middle, over R; with moving roughness that of the smooth film",
+        note="moment of the load about the middle, over R; with roughness at rest also of the asperity contacts, of "
+        "either sign and 0 on average; with moving roughness that of the smooth film",
         is_left_by_cells=True,
         is_controlled=True,
     )
@@ -345,7 +346,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "entrainment_speed": _OF_POINT["speed"],
     "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
     "load": Quantity("N", "total load", "F_T"),
-    "friction_force": Quantity("N", "tangential force on surface 2"),
+    "friction_force": Quantity("N", "tangential force on surface 2, positive along -x"),
     **{name: q for name, q in QUANTITIES.items() if q.is_in_time},
     "sampling_error": OF_UNCERTAINTY["sampling"],
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),

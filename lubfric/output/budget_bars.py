@@ -7,6 +7,7 @@ from html import escape
 from ..estimate import PARTS, FrictionResult
 from ..models.shared import percent_of_sides, sentence
 from ..quantities import COLUMNS
+from ..scene import BOUNDARY_FRICTION_KEY
 from ..time import TransientResult
 from .markup import bullets
 
@@ -48,15 +49,19 @@ def history_budget(result: TransientResult) -> str:
     if values["input"] == 0.0:  # no range is in the interval, whether or not inputs have one
         del values["input"]
     words = {name: percent_of_sides(sides[name], largest) for name, largest in values.items()}
+    largest = max(values, key=lambda name: values[name] if math.isfinite(values[name]) else 0.0)
+    labels = BUDGET | {"input": f"input (range of the {COLUMNS[BOUNDARY_FRICTION_KEY].label})"}
+    advice = f"; give a measured {BOUNDARY_FRICTION_KEY} to reduce it" if largest == "input" else ""
     notes = [
+        f"Largest part: {labels[largest]} {words[largest]}{advice}",
         "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at "
         "most transient.tolerance, is not included",
         "The errors keep their sign at all times, so the interval of a mean is the mean of the intervals",
         *result.not_in,
     ]
     if math.isfinite(values["model-form"]):
-        notes.insert(1, "The model-form error is that of steady motion at the same film, asperity load ratio and heat")
-    return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
+        notes.insert(2, "The model-form error is that of steady motion at the same film, asperity load ratio and heat")
+    return _budget(values, words, "the mean friction coefficient", notes, labels)
 
 
 def _budget(

@@ -1,12 +1,13 @@
 """The answer of a run in time, in sentences."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from ..models.shared import percent_or_less, sentence
 from ..quantities import counted
-from ..scene import Scene, moment_in_words
+from ..scene import Scene, moment_in_words, why_gap_not_resolved
 from ..time import (
     TransientResult,
     counts_in_average,
@@ -125,13 +126,13 @@ def _without_lambda_ratio(result: TransientResult) -> str:
 
 
 def _largest_force(result: TransientResult) -> str:
-    """Return the largest friction force of a run in motion, without its sign, with its interval and its time, in a
+    """Return the largest friction force of a run in motion, against the sliding, with its interval and its time, in a
     sentence."""
     index = largest_force(result)
     load = float(result.load[index])
     (low, high) = (load * float(end) for end in result.uncertainty.interval[index])
     largest = with_interval(load * float(result.coefficient[index]), low, high, unit="N")
-    return f"The largest friction force is {largest}, at t = {_moment(result, index)}."
+    return f"The largest friction force against the sliding is {largest}, at t = {_moment(result, index)}."
 
 
 def _largest_power_loss(result: TransientResult) -> str:
@@ -184,11 +185,18 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may
     have a narrower interval."""
     answers = f"The {run_model_of(scene).model_in_words} answers at all times."
-    if not wide_by_model(scene, result).any():
+    wide = wide_by_model(scene, result)
+    if not wide.any():
         return answers
+    if why := why_gap_not_resolved(replace(scene, transient=None)):
+        return f"{answers} No steady point has a narrower interval: {why}."
+    cool = wide & ~(np.abs(result.columns["heat_change"]) >= result.uncertainty.model)  # half of the change is an error
+    if not cool.any():
+        return f"{answers} Heat causes half or more of its model-form error, which no steady point reduces."
+    where = "" if np.array_equal(cool, wide) else f", at the {counted(int(cool.sum()), 'outputs')} less changed by heat"
     return (
-        f"{answers} For a narrower interval of a moment, solve a steady point with its values (a scene without "
-        "[transient]); this helps where the deterministic model applies and heat causes less than half of this error."
+        f"{answers} For a narrower interval of a moment{where}, solve a steady point with its values (a scene without "
+        "[transient])."
     )
 
 

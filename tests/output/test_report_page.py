@@ -338,6 +338,8 @@ def test_a_run_has_no_friction_force_at_a_standstill_and_states_the_largest_one(
         assert "" in columns[name]
     page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
     force = max(abs(float(cell)) for cell in columns["friction_force"] if cell)
-    assert float(re.search(r"largest friction force is ([\d.]+) (m?)N", page)[1]) == pytest.approx(force, rel=0.03)
+    assert float(re.search(r"largest friction force against the sliding is ([\d.]+) (m?)N", page)[1]) == pytest.approx(
+        force, rel=0.03
+    )
     energy = np.trapezoid(np.array(columns["power_loss"], float), np.array(columns["time"], float))
     assert float(re.search(r"Friction takes ([\d.]+) µJ in 1 ms", page)[1]) == pytest.approx(1e6 * energy, rel=0.03)
