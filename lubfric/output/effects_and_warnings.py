@@ -7,7 +7,7 @@ import numpy as np
 
 from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, sentence
 from ..studies import CurveResult
-from ..time import TransientResult, effects_of_run, rolls
+from ..time import LEAST_SHARE_OF_F, TransientResult, effects_of_run, rolls
 from .describe import SceneEstimate
 from .markup import NUMBER, Cell, bullets, folded_notes, plain_cells, table
 from .operating_point import place_on_curve
@@ -68,7 +68,8 @@ def history_effects(prepared: Prepared, result: TransientResult, estimate: Scene
     """Return the table of the effects that are not modelled, each at the output at which it changes f the most."""
     effects = effects_of_run(prepared, result)
     place = "of the run"
-    which = ", each at the output at which it changes f the most"
+    share = f"{100 * LEAST_SHARE_OF_F:g} %"
+    which = f", each at the output at which it changes f the most, of those with f above {share} of its mean"
     if result.time.size < 2 or not rolls(result.columns).any():
         effects = estimate.effects_over_time
         place = "before the solve"

@@ -375,6 +375,12 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     )  # a map to scale may be lower than its part of the figure
 
 
+# Ratio of the thickest to the thinnest film of a run in time above which their axis is logarithmic, and the film [m]
+# below which none is drawn there, less than a molecule. Choices, by looking at the figures.
+WIDE_SPAN_OF_FILMS = 30.0
+THINNEST_DRAWN = 1e-10
+
+
 @figures.styled
 def plot_history(
     path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
@@ -400,17 +406,7 @@ def plot_history(
     load.plot(t, c["load"], color=figures.GREY, lw=1.2, ls="--")
     load.set_ylim(0.0, 1.15 * c["load"].max())
     load.set_ylabel("load $F_T$ (N), dashed", color=figures.GREY)
-    unit = unit_for(c["central_film"].tolist(), "m")
-    scale = 1.0 / converted(1.0, unit, "m")
-    for name, label, style in (
-        ("full_load_film", "full-load film in steady motion", {"color": figures.BLUE, "lw": 1}),
-        ("central_film", "central separation", {"color": figures.GREEN, "lw": 3.2, "alpha": 0.45}),
-        ("min_film", "smallest film", {"color": "k", "lw": 1, "ls": "--"}),
-        ("mean_gap", "mean separation over the Hertz strip", {"color": figures.RED, "lw": 1.2, "ls": ":"}),
-    ):
-        if name in c:
-            second.plot(t, c[name] * scale, label=label, **style)
-    second.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
+    _films_over_time(second, t, c)
     figures.load_shares(third, t, c["contact_load"] / c["load"])
     for axes in (first, second, third):
         figures.key_above(axes)
@@ -430,6 +426,30 @@ def plot_history(
     options.thin(figure)
     figures.fit_labels(figure)
     figure.savefig(path)
+
+
+def _films_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Draw the films over the times ``t`` of an axis, on a logarithmic one where they span more than
+    `WIDE_SPAN_OF_FILMS`."""
+    unit = unit_for(c["central_film"].tolist(), "m")
+    scale = 1.0 / converted(1.0, unit, "m")
+    drawn = []
+    lines: tuple[tuple[str, str, dict[str, Any]], ...] = (
+        ("full_load_film", "full-load film in steady motion", {"color": figures.BLUE, "lw": 1}),
+        ("central_film", "central separation", {"color": figures.GREEN, "lw": 3.2, "alpha": 0.45}),
+        ("min_film", "smallest film", {"color": "k", "lw": 1, "ls": "--"}),
+        ("mean_gap", "mean separation over the Hertz strip", {"color": figures.RED, "lw": 1.2, "ls": ":"}),
+    )
+    for name, label, style in lines:
+        if name in c:
+            axes.plot(t, c[name] * scale, label=label, **style)
+            drawn.append(c[name])
+    films = np.concatenate(drawn)
+    films = films[films > THINNEST_DRAWN]
+    axes.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
+    if films.size and films.max() > WIDE_SPAN_OF_FILMS * films.min():
+        axes.set(yscale="log", ylim=(0.8 * films.min() * scale, 1.25 * films.max() * scale))
+        figures.plain_ticks(axes.yaxis)
 
 
 def _force_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
@@ -456,7 +476,7 @@ def _power_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> Non
         (below, above) = (converted(end, "W", unit) for end in (low, high))
         axes.fill_between(t, below, above, color=figures.RED, alpha=0.2, lw=0, label=band_label(c))
     axes.plot(t, converted(c["power_loss"], "W", unit), color=figures.RED, lw=1.2, label="power loss")
-    axes.set(ylabel=f"power loss P ({printed(unit)})", ylim=(0.0, None))
+    axes.set(ylabel=f"power loss $P$ ({printed(unit)})", ylim=(0.0, None))
     figures.key_above(axes)
 
 

@@ -2,6 +2,7 @@
 
 from .checks_before_run import expected_violations_of_run
 from .effects import (
+    LEAST_SHARE_OF_F,
     EffectOverTime,
     EffectsOfMoment,
     effects_of_run,

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -25,6 +26,9 @@ from .scene_in_time import scene_at
 # Outputs of a run at which its effects are judged, about. A choice: each takes some milliseconds, and the extremes of
 # the run are always among them.
 JUDGED_OUTPUTS = 200
+
+# Part of the mean |f| of a run below which a change relative to f says little of its losses. A choice.
+LEAST_SHARE_OF_F = 0.2
 
 
 # Relative difference of two values that count as equal. A choice: above that of the halves of a symmetrical cycle,
@@ -137,29 +141,32 @@ def first_largest(values: Sequence[float]) -> int:
 
 def largest_over_time(moments: Sequence[EffectsOfMoment]) -> tuple[EffectOverTime, ...]:
     """Return each effect of the ``moments`` once: where the change of f by it, not relative to f, is largest. Moments
-    at which f is so near 0 that a relative change says nothing count only where there are no others. An effect whose
+    at which f is so near 0 that a relative change says nothing, or below `LEAST_SHARE_OF_F` of the mean of all
+    moments, count only where there are no others. An effect whose
     change is not estimated at any moment is that of the highest pressure. The largest change is first."""
     by_name: dict[str, list[tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]]] = {}
     for moment in moments:
         for effect in moment.effects:
             by_name.setdefault(effect.kind or effect.what, []).append((moment, effect))
+    least = LEAST_SHARE_OF_F * float(np.mean([moment.friction for moment in moments])) if moments else 0.0
     chosen: list[tuple[float, EffectOverTime]] = []
     for pairs in by_name.values():
         known = [pair for pair in pairs if math.isfinite(pair[1].largest_change)]
         at_pressure = first_largest([moment.peak_pressure for moment, _ in pairs])
-        moment, effect = max(known, key=_rank) if known else pairs[at_pressure]
+        moment, effect = max(known, key=partial(_rank, least=least)) if known else pairs[at_pressure]
         change = effect.largest_change * moment.friction if known else 0.0
         unknown = len(pairs) - len(known)
         chosen.append((change, EffectOverTime(effect=effect, time=moment.time, unknown=unknown)))
     return tuple(each for _, each in sorted(chosen, key=lambda pair: -pair[0]))
 
 
-def _rank(pair: tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect]) -> tuple[bool, float]:
-    """Return by what a moment of an effect is compared with others: whether its relative change says something, and the
-    change of f."""
+def _rank(pair: tuple[EffectsOfMoment, UnmodelledEffect | ExpectedEffect], least: float) -> tuple[bool, float]:
+    """Return by what a moment of an effect is compared with others: whether its relative change says something, as |f|
+    is ``least`` or more, and the change of f."""
     moment, effect = pair
     relative = effect.largest_change
-    return not is_near_zero(moment.friction, relative), relative * moment.friction
+    is_told = moment.friction >= least and not is_near_zero(moment.friction, relative)
+    return is_told, relative * moment.friction
 
 
 def _peak_pressure(scene: Scene) -> float:

@@ -407,6 +407,11 @@ def test_a_history_is_drawn_by_its_table(figures):
         np.testing.assert_allclose(data(second, label), [[0, 10, 20], 1e3 * t + least])
     np.testing.assert_allclose(edges(third, "asperity load $F_C/F_T$")[1], [0.2, 0.5, 0.25])
     np.testing.assert_allclose(data(fourth, "fluid friction"), [[0, 10, 20], 0.05 / columns["load"]])
+    wide = columns | {"min_film": np.array([0.0, 1e-9, 2e-8])}  # 220 times below the thickest; a 0 counts for nothing
+    plot_history("x.png", wide, "title")
+    scales = [each.axes[1].get_yscale() for each in figures]
+    (low, high) = figures.pop().axes[1].get_ylim()
+    assert scales == ["linear", "log"] and 0.5 < low < 1.0 and high > 220
     assert "(nm)" in second.get_ylabel() and fourth.get_xlabel() == "time (ms)" and "(N)" in load.get_ylabel()
     power = np.array([2e-3, 5e-3, 4e-3])
     ends = {"power_loss_low": 0.9 * power, "power_loss_high": 1.2 * power}
@@ -422,7 +427,7 @@ def test_a_history_is_drawn_by_its_table(figures):
     np.testing.assert_allclose(
         edges(last, "95 % interval, without model-form error"), [[1.8, 4.5, 3.6], [2.4, 6.0, 4.8]]
     )
-    assert " ".join(last.get_ylabel().split()) == "power loss P (mW)"
+    assert " ".join(last.get_ylabel().split()) == "power loss $P$ (mW)"
     assert last.get_xlabel() == "time (ms)" and not above.get_xlabel()
 
 

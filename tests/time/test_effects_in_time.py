@@ -41,6 +41,7 @@ def test_an_effect_is_stated_where_it_changes_f_the_most_and_not_where_f_is_near
         moment(1.0, 0.1, effect("additive", -0.2)),
         moment(2.0, 0.02, effect("additive", -0.9), effect("inlet", 0.5)),
         moment(3.0, 1e-3, effect("additive", -60.0)),
+        moment(4.0, 5e-3, effect("inlet", 2.5)),  # 8 % of the mean f
     ]
     effects = largest_over_time(moments)
     assert [(each.effect.what, each.effect.change, each.time) for each in effects] == [
