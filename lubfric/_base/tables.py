@@ -6,7 +6,7 @@ import io
 import json
 import math
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -112,7 +112,8 @@ def read_columns(
     units: Sequence[str | None],
     must_say: Sequence[str] = (),
     of_other_kind: Mapping[str, str] = MappingProxyType({}),
-) -> list[list[float]]:
+    words: Mapping[str, Container[str] | None] = MappingProxyType({}),
+) -> list[list[Any]]:
     """Return columns in ``units``, found by the ``names``, which are headings with or without their units, in the first
     row that has most of them: a preamble of up to `TITLES` lines may precede the table.
 
@@ -120,7 +121,7 @@ def read_columns(
     line of units may follow the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
     those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: to which
     each column is converted (None: from any of `UNITS`, to SI); ``of_other_kind``: by the SI unit, what to do with a
-    column that is of another kind. Comma, semicolon, tab or two blanks separate;
+    column that is of another kind; ``words``: by the name of a column that takes text, which (None: any). Comma, semicolon, tab or two blanks separate;
     with one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
     Windows-1252.
 
@@ -163,8 +164,15 @@ def read_columns(
             message = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
             advice = next((of_other_kind[si] for si, row in UNITS.items() if word in row and si in of_other_kind), "")
             raise InputError(message, allowed=f"{listed}, or no unit for SI", recommendation=advice)
-        numbers = [_number(path, line, row, places[0], heading) for line, row in rows[1:]]
-        columns.append([converted(number, word, unit or kind_of(word)) for number in numbers] if word else numbers)
+        cells = [row[places[0]].strip() if places[0] < len(row) else "" for _, row in rows[1:]]
+        column: list[Any] = [
+            cell if name in words and _is_word(cell, words[name]) else _number(path, line, row, places[0], heading)
+            for cell, (line, row) in zip(cells, rows[1:])
+        ]
+        if word:
+            si = unit or kind_of(word)
+            column = [value if isinstance(value, str) else converted(value, word, si) for value in column]
+        columns.append(column)
     return columns
 
 
@@ -192,6 +200,11 @@ def _unit_of_column(path: Path, heading: str, name: str, stated: str | None) -> 
             message = f"column {heading!r} of {path.name} is in {named[0]!r} and in {unit!r}"
             raise InputError(message, recommendation="name one unit")
     return named[0] if named else None
+
+
+def _is_word(cell: str, words: Container[str] | None) -> bool:
+    """Return whether a ``cell`` is one of the ``words`` that its column takes (None: any text but a number)."""
+    return bool(cell) and (not _is_number(cell) if words is None else cell in words)
 
 
 def _is_unit(word: str) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..models.shared import sentence
+from ..models.shared import numbers_in_words, sentence
 from ..quantities import COLUMNS, worded_value
 from ..studies import (
     ORDERED_BY,
@@ -19,6 +19,7 @@ from ..studies import (
     design_keys,
     name_of,
     operating_keys,
+    points_are_designs,
     why_not_compared,
 )
 from ..units import beside_interval, interval_in_words, with_interval
@@ -32,6 +33,9 @@ MOST_CONDITIONS = 200
 
 # Columns of a table of operating points from which its others follow: they say enough of a condition.
 GIVEN_SPEEDS = ("u1", "u2")
+
+# Numbers by which points are compared that are designs, as sentences name them.
+SYMBOLS_OF_POINTS = {"power_loss": "The power loss", "coefficient": "f"}
 
 RULE = (
     "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an "
@@ -78,6 +82,8 @@ def best_lines(result: StudyResult) -> list[str]:
         return []
     if why := why_not_compared(result.plan):
         return [sentence(why)]
+    if points_are_designs(result.plan):
+        return [line for quantity in SYMBOLS_OF_POINTS for line in _best_points(result, quantity)]
     lines = []
     quantity = "power_loss" if result.paired else "coefficient"
     mean = best_mean(result, quantity)
@@ -98,6 +104,28 @@ def best_lines(result: StudyResult) -> list[str]:
     elif best_ones:
         lines.append(_summary(best_ones))
     return lines
+
+
+def _best_points(result: StudyResult, quantity: str) -> list[str]:
+    """Return which points, each of them a design, have the lowest ``quantity``, in sentences."""
+    return [
+        f"{SYMBOLS_OF_POINTS[quantity]} is lowest at point {one.row}"
+        f"{_where(one)}: {_number(one, COLUMNS[quantity].unit)}, with {values_in_words(one.design)}. {_rival_points(one)}"
+        for one in best(result, quantity)
+    ]
+
+
+def _rival_points(one: BestDesign) -> str:
+    """Return which points the best ``one`` cannot be distinguished from, by their numbers, in a sentence."""
+    if not one.rivals or not np.isfinite(one.interval[0]):
+        return _comparison(one)
+    where = numbers_in_words(sorted(one.rival_rows), one.compared)
+    return f"{where} the difference from this is within its error."
+
+
+def _where(one: BestDesign) -> str:
+    """Return at which values the condition of ``one`` lies, as text to be appended; "" where there is one alone."""
+    return f" at {condition_in_words(one.condition)}" if one.condition else ""
 
 
 def _number(one: BestDesign, unit: str) -> str:

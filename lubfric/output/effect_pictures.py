@@ -82,6 +82,7 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
     each speed; else over the speed, in a colour for each value of the key, or for the low, middle and high ones.
     """
     shares = studies.main_effects(result)
+    are_separated = not studies.why_not_separated(result)
     ordered = [*(key for key in shares if key in keys), *(key for key in keys if key not in shares)]
     columns = _columns(result)
     speeds = np.unique(columns[studies.SPEED])
@@ -107,9 +108,9 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
             axes.get_legend().set_title("\n".join(heads), {"size": letters})
             axes.get_legend().set_alignment("left")
         else:
-            scattered = studies.is_scattered(result, key)
+            has_means = are_separated and not (studies.is_scattered(result, key) and columns[key].dtype.kind in "fi")
             width = THINNER if options.is_narrow else 1.0
-            _draw_over_key(axes, columns, key, of_speeds, is_scattered=scattered, width=width)
+            _draw_over_key(axes, columns, key, of_speeds, has_means=has_means, width=width)
             axes.set_title(fill(_share_in_words(key, shares), room), fontsize=letters)
         axes.set_ylabel("" if number % across else figures.FRICTION_LABEL)
     for axes in panels[len(inputs) :]:
@@ -197,10 +198,10 @@ def _draw_over_speed(axes: Axes, columns: dict[str, np.ndarray], groups: list[Gr
 
 
 def _draw_over_key(
-    axes: Axes, columns: dict[str, np.ndarray], key: str, groups: list[Group], *, is_scattered: bool, width: float
+    axes: Axes, columns: dict[str, np.ndarray], key: str, groups: list[Group], *, has_means: bool, width: float
 ) -> None:
     """Draw f over the values of a ``key``, in a colour for each of the ``groups``, beside each other: its mean, middle
-    half and range, or the points of a number that ``is_scattered``. ``width``: of the bars over the usual one."""
+    half and range, or without ``has_means`` its points. ``width``: of the bars over the usual one."""
     values = columns[key]
     is_number = values.dtype.kind in "fi"
     names = [] if is_number else list(dict.fromkeys(values.tolist()))
@@ -214,7 +215,7 @@ def _draw_over_key(
     step = APART * (float(np.ptp(scale)) or 1.0)
     for number, (group, colour) in enumerate(zip(groups, _colours(len(groups)))):
         f = columns["coefficient"][group.rows]
-        if is_scattered and is_number:
+        if not has_means:
             low, high = (columns[name][group.rows] for name in studies.INTERVAL_COLUMNS["coefficient"])
             axes.vlines(along[group.rows], low, high, color=[colour], lw=0.7 * width, alpha=0.25)
             axes.plot(along[group.rows], f, "o", ms=POINT_SIZE, color=colour, alpha=0.8)

@@ -10,14 +10,18 @@ from ..studies import (
     INTERVAL_COLUMNS,
     ORDERED_BY,
     POSITION,
+    MainEffect,
     StudyPlan,
     StudyResult,
     columns_of_study,
+    design_keys,
     label,
     main_effects,
     mean_over_cycle,
     name_of,
     place_in_words,
+    points_are_designs,
+    why_not_separated,
 )
 from ..units import converted, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
@@ -27,6 +31,12 @@ from .study_points import effects_at, error_in_words, parts_of_error
 # Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms
 # each.
 MOST_CHECKED_EFFECTS = 500
+# Numbers on which the effects of the inputs are stated, with their symbols.
+OF_EFFECTS = {"coefficient": "f", "power_loss": "P"}
+# How the effects of inputs can be told apart.
+DRAW_INDEPENDENTLY = (
+    "Vary the inputs independently: all combinations, or points drawn as [sample] of a study file does."
+)
 # What f is at a point where nothing slides, and why the power loss there is not f times a speed.
 IN_PURE_ROLLING = (
     "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling "
@@ -51,11 +61,11 @@ def answer_lines(result: StudyResult) -> list[str]:
     means over the cycle, and the smallest and the largest f and power loss with intervals and places. Without designs
     the means and the extremes are before what the inputs do."""
     rows = best_lines(result)
-    effects = _main_effects_line(result)
+    effects = _main_effects_lines(result)
     if rows:
         rows += effects
         effects = []
-    if result.paired:
+    if result.paired and not points_are_designs(result.plan):
         rows += _mean_lines(result)
     slides = is_by_sliding(result.columns)
     for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
@@ -63,7 +73,10 @@ def answer_lines(result: StudyResult) -> list[str]:
         if values is None or not np.isfinite(values).any():
             continue
         what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
-        for word, find in {"smallest": np.nanargmin, "largest": np.nanargmax}.items():
+        # where the points are designs, the best of them has been stated
+        words = ("largest",) if points_are_designs(result.plan) else ("smallest", "largest")
+        for word in words:
+            find = np.nanargmin if word == "smallest" else np.nanargmax
             counted_values = np.where(slides, np.abs(values), np.nan) if name == "coefficient" else np.abs(values)
             index = tuple(map(int, np.unravel_index(int(find(counted_values)), values.shape)))
             low, high = (float(result[end][index]) for end in (low_name, high_name))
@@ -77,12 +90,21 @@ def answer_lines(result: StudyResult) -> list[str]:
     return [*rows, *effects, *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
 
 
-def _main_effects_line(result: StudyResult) -> list[str]:
-    """Return what the inputs that are varied do to f, each by itself, in a sentence; none where that is not known."""
-    effects = main_effects(result)
+def _main_effects_lines(result: StudyResult) -> list[str]:
+    """Return what the inputs that are varied do to f and to the power loss, each by itself, in a sentence each, or why
+    that is not known; none where no designs vary."""
+    lines = [_effects_in_words(main_effects(result, name), symbol) for name, symbol in OF_EFFECTS.items()]
+    why = why_not_separated(result)
+    if why and design_keys(result.plan) and not any(lines):
+        return [f"What each input does by itself is not known, because {why}. {DRAW_INDEPENDENTLY}"]
+    return [line for line in lines if line]
+
+
+def _effects_in_words(effects: dict[str, MainEffect], symbol: str) -> str:
+    """Return the ``effects`` on the quantity with this ``symbol`` in a sentence; "" where there are none."""
     if not effects:
-        return []
-    trends = {-1: ["on average f falls with it"], 0: [], 1: ["on average f rises with it"]}
+        return ""
+    trends = {-1: [f"on average {symbol} falls with it"], 0: [], 1: [f"on average {symbol} rises with it"]}
     words = []
     for key, effect in effects.items():
         low, high = (f"{100 * end:.2g}" if end >= LEAST_STATED_SHARE else "0" for end in effect.interval)
@@ -90,12 +112,14 @@ def _main_effects_line(result: StudyResult) -> list[str]:
         details = ", ".join([*known, *trends[effect.slope]])
         words.append(f"{name_of(key)} {percent(effect.share)}" + (f" ({details})" if details else ""))
     within = (
-        ", with its range within the errors of f at 95 %" if np.isfinite([*effects.values()][0].interval).all() else ""
+        f", with its range within the errors of {symbol} at 95 %"
+        if np.isfinite([*effects.values()][0].interval).all()
+        else ""
     )
-    return [
-        f"Part of the variance of ln f that each input alone explains{within}: {'; '.join(words)}. The remaining part "
-        "comes from combinations of inputs."
-    ]
+    return (
+        f"Part of the variance of ln {symbol} that each input alone explains{within}: {'; '.join(words)}. The remaining "
+        "part comes from combinations of inputs."
+    )
 
 
 def _mean_lines(result: StudyResult) -> list[str]:

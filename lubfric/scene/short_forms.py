@@ -269,6 +269,8 @@ def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
             grade_viscosity(source["grade"])  # refuses a grade that is none
             raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
         return from_grade(source["grade"], index, **kept)
+    if "nu40" in source and "nu100" not in source and index is None:
+        index = _index_of(before)
     if index is None and are_together("lubricant", source, "nu40", "nu100"):
         return from_viscosities(source["nu40"], source["nu100"], **kept)
     nu40 = source.get("nu40", before and before.kinematic_viscosity(AT_40))
@@ -278,6 +280,13 @@ def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
         key = next(iter(source), "base, density or another property")
         raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
     return before
+
+
+def _index_of(before: Oil | None) -> float:
+    """Return the viscosity index that the oil ``before`` was given with, for another viscosity at 40 °C."""
+    if before is None or "viscosity_index" not in before.given_keys:
+        raise InputError("[lubricant] nu40 needs nu100 or viscosity_index as well")
+    return float(before.given_keys["viscosity_index"])
 
 
 def only_one(section: str, given: dict[str, Any], *keys: str) -> None:

@@ -4,7 +4,7 @@ from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .best import COMPARED_DISTANCE, CORRELATION_OF_DESIGNS, BestDesign, best, best_mean
 from .choose import AUTO_SPEEDS, each_once, expected_speeds, span
 from .codec import classes_of, decode, encode, fits
-from .conditions import design_keys, operating_keys, why_not_compared
+from .conditions import design_keys, operating_keys, points_are_designs, why_not_compared
 from .curve import CurveResult, columns_of_curve, csv_bytes
 from .curve_axes import draw_curve
 from .explain import WITHIN_WORDS, estimated_study, explained, in_words
@@ -16,7 +16,7 @@ from .fit_result import FitResult, draw_fit, draw_residuals
 from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
-from .main_effects import is_scattered, main_effects
+from .main_effects import MainEffect, is_scattered, main_effects, why_not_separated
 from .operating_points import DURATION, INTERVAL_COLUMNS, ORDERED_BY, POSITION, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..models.shared import half_width_of_error, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR
 from ..scene import inputs_not_given
-from .conditions import design_keys, operating_keys
+from .conditions import design_keys, operating_keys, points_are_designs
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .tables import columns_of_study
 
@@ -93,7 +93,8 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
     `BestDesign` each.
 
     Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point
-    lies; all else that is varied is design. Two points cannot be distinguished where the difference of their numbers is
+    lies; all else that is varied is design. Operating points that vary a design, as the roughness, and say not where
+    they lie are designs as a whole, load and speed included. Two points cannot be distinguished where the difference of their numbers is
     within the error of this difference. Errors count by the sides of the intervals that face each other. Numerical and
     sampling errors are taken as independent. Model-form errors of similar designs by the quick model or that of the
     paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken as independent. Ranges of inputs that both
@@ -111,8 +112,13 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
 
     Raises
     ------
-    InputError : the curves chose their own speeds, at which they cannot be compared
+    InputError : the curves chose their own speeds, at which they cannot be compared; or operating points vary no design
     """
+    if result.paired and not design_keys(result.plan):
+        raise InputError(
+            "the operating points vary no design: all their columns count as conditions of one cycle",
+            recommendation="give designs in vary; result['power_loss'] has all points",
+        )
     (columns, points) = _compared(result, quantity)
     value = points.value
     ends = points.ends
@@ -146,7 +152,14 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
 
     The interval is the mean of those of the points, whose errors are taken as fully correlated. ``quantity``,
     comparison and errors: as of `best`.
+
+    Raises `InputError` as `best` does, and where each operating point is a design, as there is no mean over it.
     """
+    if points_are_designs(result.plan):
+        raise InputError(
+            "each operating point is a design of its own, which has no mean over conditions",
+            recommendation=f"result.best({quantity!r}) compares them",
+        )
     (columns, points) = _compared(result, quantity)
     value = points.value
     (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))

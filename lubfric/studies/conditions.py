@@ -23,16 +23,36 @@ OPERATING_KEYS = frozenset(
 )
 OPERATING_SECTION = "motion."
 
+# Keys that change along a path of contact, over a turn or a duty cycle in addition to those: a table of operating points
+# that varies no others is one of a cycle.
+KEYS_OF_CYCLE = frozenset({"bodies.radius", "bodies.width", "lubricant.viscosity"})
+
 # Keys that say how f is computed, and on which sample of a surface: points are compared at the same ones.
 COMPUTATION = ("numerics.", "surface.seed", "counterface.seed", "contact.")
+
+
+def points_are_designs(plan: Any) -> bool:
+    """Return whether each row of the table of operating points of a `StudyPlan` is a design with a load and a speed of
+    its own, as a sample of them: it varies a key that no cycle does, and does not say where a point lies."""
+    if not plan.paired or not COORDINATES.keys().isdisjoint(plan.coords):
+        return False
+    return any(not _is_condition(key) and key not in KEYS_OF_CYCLE for key in _of_table(plan))
+
+
+def _of_table(plan: Any) -> set[str]:
+    """Return the columns with several values of the table of operating points of a `StudyPlan`."""
+    return {key for key in _varied(plan) if plan.paired and plan.coords[key][0] == POINT}
 
 
 def operating_keys(plan: Any) -> tuple[str, ...]:
     """Return the keys with several values in a `StudyPlan` that are conditions: load, speeds, slide-roll ratio and
     temperature of the oil, columns that say where an operating point lies, and keys of the computation. Of a table of
-    operating points with one of these all columns are: the radius of a gear flank changes along the path of contact."""
+    operating points with one of these all columns are, as the radius of a gear flank changes along the path of contact;
+    none is where `points_are_designs`."""
     varied = _varied(plan)
-    of_table = {key for key in varied if plan.paired and plan.coords[key][0] == POINT}
+    of_table = _of_table(plan)
+    if points_are_designs(plan):
+        return tuple(key for key in varied if key not in of_table and _is_condition(key))
     if not any(_is_condition(key) for key in of_table):
         of_table = set()
     return tuple(key for key in varied if _is_condition(key) or key in of_table)

@@ -29,6 +29,10 @@ FEWEST_POINTS = 12
 # wide as many intervals of f: above it the formula, and not f, limits what a simulation shows.
 LARGEST_OF_LAW = 0.1
 
+LAW_OVER_OTHERS = (
+    "no law over other inputs is offered: result.best() compares designs, the report states what each input does, and "
+    "result.to_csv(path) has all numbers for a fit of your own"
+)
 MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 
 # Relative distance by which a number may lie outside a range. A choice, above rounding.
@@ -288,11 +292,14 @@ def _check_numerical_errors(curve: Interpolant) -> None:
 def law_of_study(result: Any) -> Law:
     """Return the friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a
     formula for system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
-    if result.paired:
-        raise InputError("a law is over speed; this study has operating points: give speeds instead of points")
     others = [key for axis in result.plan.axes for key in axis.keys if key not in VARIED]
     if others:
-        raise InputError(f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well")
+        raise InputError(
+            f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well",
+            recommendation=LAW_OVER_OTHERS,
+        )
+    if result.paired:
+        raise InputError("a law is over speed; this study has operating points: give speeds instead of points")
     curves_of_study = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
     scenes = result.plan.scenes
     curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, curves_of_study) if curve is not None]

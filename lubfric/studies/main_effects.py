@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats import rankdata
 
 from ..models.shared import is_by_sliding
+from .operating_points import INTERVAL_COLUMNS
 from .points import SPEED
-from .tables import columns_of_study
+from .tables import columns_of_study, name_of
 
 # Points with f from which shares are stated. A convention.
 LEAST_POINTS = 6
@@ -18,8 +21,12 @@ LEAST_POINTS = 6
 # Points with f for each number that seldom repeats, from which shares are stated. A convention.
 POINTS_FOR_EACH = 6
 
-# Correlation of two inputs from which their shares are not told apart. A convention.
+# Rank correlation of two inputs from which their shares are not told apart. A convention.
 MOST_CORRELATED = 0.3
+
+# Standard deviations by which the points at one pair of values of two inputs may exceed those of independent inputs. A
+# convention: a few of 10,000 pairs do by chance.
+MOST_ALIKE = 4.0
 
 # Points of an axis at each value of an input, on average, from which these are groups where other inputs change along
 # that axis; else a parabola is laid through all points. A choice: one each has no scatter in a group.
@@ -46,8 +53,8 @@ HALF_WIDTH_OF_NORMAL = 1.96
 class MainEffect(NamedTuple):
     """Effect of one input of a study.
 
-    ``share``: of the variance of ln |f| over the points, by this input alone; ``slope``: sign of the change of |f| with
-    it, 0 for words; ``interval``: (lowest, highest) share within the numerical, sampling and model-form errors of f at
+    ``share``: of the variance of ln |f|, or of ln P, over the points, by this input alone; ``slope``: sign of the
+    change of |f| with it, 0 for words; ``interval``: (lowest, highest) share within the numerical, sampling and model-form errors of f at
     95 %, NaN where one of them is not known.
     """
 
@@ -56,43 +63,85 @@ class MainEffect(NamedTuple):
     interval: tuple[float, float]
 
 
-def main_effects(result: Any) -> dict[str, MainEffect]:
-    """Return the `MainEffect` of every input that a `StudyResult` varies, by its key, the largest first.
+def main_effects(result: Any, quantity: str = "coefficient") -> dict[str, MainEffect]:
+    """Return the `MainEffect` on ``quantity`` ("coefficient", "power_loss") of every input that a `StudyResult` varies,
+    by its key, the largest first.
 
     The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order
     index of Sobol); of a number that seldom repeats, that of a parabola in the number, or in its logarithm where it
-    varies by more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
-    together, as those along a path of contact do. What only says where an operating point lies is no input.
+    varies by more than a factor of 3. Empty where f is known at too few points, does not vary, or `why_not_separated`.
+    What only says where an operating point lies is no input.
     """
     columns = columns_of_study(result)
-    f = np.abs(columns["coefficient"])
-    known = np.isfinite(f) & (f > 0) & is_by_sliding(columns)
-    inputs = {SPEED, *(key for axis in result.plan.axes for key in axis.keys)}
-    keys = [key for key in result.coords if key in inputs and np.unique(columns[key][known]).size > 1]
-    if result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:
+    known = _known(columns, quantity)
+    keys = _inputs(result, columns, known)
+    if result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS or why_not_separated(result, quantity):
         return {}
-    scattered = {key for key in keys if is_scattered(result, key)}
-    if known.sum() < POINTS_FOR_EACH * len(scattered):
-        return {}
-    y = np.log(f[known])
+    y = np.log(np.abs(columns[quantity][known]))
     if not y.std() > 0:
         return {}
     x = {key: _coordinate(columns[key][known]) for key in keys}
-    together = np.abs(np.corrcoef([*x.values()])) - np.eye(len(keys))
-    if together.max() > MOST_CORRELATED:
-        return {}
     draws = np.random.default_rng(ERROR_SEED).standard_normal((ERROR_DRAWS, y.size))
-    noise = draws * _independent_errors(columns, known)
+    errors = _independent_errors(columns, known) if quantity == "coefficient" else _errors_by_interval(columns, known)
+    noise = draws * errors
     effects = {}
     for key in keys:
         is_number = columns[key].dtype.kind == "f"
-        is_fitted = is_number and key in scattered
-        explained = partial(_explained, x[key], is_fitted=is_fitted)
+        explained = partial(_explained, x[key], is_fitted=is_number and is_scattered(result, key))
         share = explained(y) / float(y.var())
         low, high = np.percentile(_drawn_shares(explained, y, noise), ENDS_OF_INTERVAL)
         slope = int(np.sign(np.corrcoef(x[key], y)[0, 1])) if is_number else 0
         effects[key] = MainEffect(share=share, slope=slope, interval=(min(float(low), share), max(float(high), share)))
     return dict(sorted(effects.items(), key=lambda pair: -pair[1].share))
+
+
+def why_not_separated(result: Any, quantity: str = "coefficient") -> str:
+    """Return why the effects of the inputs of a `StudyResult` cannot be told apart, as text; "" where they can: its
+    points are too few, or two inputs change together over them, or share a pair of values more often than points do
+    that are drawn independently."""
+    columns = columns_of_study(result)
+    known = _known(columns, quantity)
+    keys = _inputs(result, columns, known)
+    count = int(known.sum())
+    if result.chosen or len(keys) < 2 or count < 2:
+        return ""
+    scattered = [key for key in keys if is_scattered(result, key)]
+    if count < POINTS_FOR_EACH * len(scattered):
+        return f"{count} points are too few for {len(scattered)} inputs"
+    x = {key: _coordinate(columns[key][known]) for key in keys}
+    together = np.abs(np.corrcoef([rankdata(values) for values in x.values()])) - np.eye(len(keys))
+    (one, other) = (keys[place] for place in np.unravel_index(int(together.argmax()), together.shape))
+    if together.max() > MOST_CORRELATED:
+        return f"{name_of(one)} and {name_of(other)} change together (rank correlation {together.max():.2f})"
+    for one, other in combinations(keys, 2):
+        alike = _alike_pairs(x[one], x[other])
+        if alike:
+            return f"{alike} points share one value of {name_of(one)} and one of {name_of(other)}"
+    return ""
+
+
+def _alike_pairs(one: np.ndarray, other: np.ndarray) -> int:
+    """Return how many points share the pair of values, of ``one`` and ``other`` input (n,), that occurs most above what
+    independent inputs have; 0 where none is above `MOST_ALIKE` standard deviations."""
+    (_, place, count) = np.unique(one, return_inverse=True, return_counts=True)
+    (_, place_of_other, count_of_other) = np.unique(other, return_inverse=True, return_counts=True)
+    (pairs, frequency) = np.unique(place * count_of_other.size + place_of_other, return_counts=True)
+    expected = count[pairs // count_of_other.size] * count_of_other[pairs % count_of_other.size] / one.size
+    excess = (frequency - expected) / np.sqrt(np.maximum(expected, 1.0))
+    return int(frequency[excess.argmax()]) if excess.max() > MOST_ALIKE else 0
+
+
+def _known(columns: dict[str, np.ndarray], quantity: str) -> np.ndarray:
+    """Return at which points a ``quantity`` counts, (n,)."""
+    size = np.abs(columns[quantity])
+    counted = is_by_sliding(columns) if quantity == "coefficient" else np.ones(size.size, dtype=bool)
+    return np.isfinite(size) & (size > 0) & counted
+
+
+def _inputs(result: Any, columns: dict[str, np.ndarray], known: np.ndarray) -> list[str]:
+    """Return the keys of the inputs that a `StudyResult` varies over its ``known`` points."""
+    inputs = {SPEED, *(key for axis in result.plan.axes for key in axis.keys)}
+    return [key for key in result.coords if key in inputs and np.unique(columns[key][known]).size > 1]
 
 
 def _coordinate(values: np.ndarray) -> np.ndarray:
@@ -124,6 +173,12 @@ def _independent_errors(columns: dict[str, np.ndarray], known: np.ndarray) -> np
         columns.get(f"{name}_error", unknown)[known] for name in ("numerical", "model", "sampling")
     )
     return np.hypot(np.hypot(numerical, model) / HALF_WIDTH_OF_NORMAL, sampling)
+
+
+def _errors_by_interval(columns: dict[str, np.ndarray], known: np.ndarray) -> np.ndarray:
+    """Return the standard deviation of ln P at the ``known`` points by the intervals of the power loss."""
+    low, high = (columns[name][known] for name in INTERVAL_COLUMNS["power_loss"])
+    return 0.5 * (high - low) / np.abs(columns["power_loss"][known]) / HALF_WIDTH_OF_NORMAL
 
 
 def _drawn_shares(explained: Callable[[np.ndarray], float], y: np.ndarray, noise: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
 from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, RADII_OF_SURFACES, Quantity
-from ..scene import SLIDE_ROLL_RATIO_KEY, SLIP_KEY, Scene, likely_unit, other_convention, reduced_radius
+from ..scene import SLIDE_ROLL_RATIO_KEY, SLIP_KEY, Scene, likely_unit, other_convention, reduced_radius, typical
 from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, printed, spelled
 from .vary import MOST_COMBINATIONS, VARIED_SECTIONS, Axis, check_key
 
@@ -85,7 +85,7 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
         column is a key of a scene ("bodies.load"), or one of radius, R1, R2, width, load, hertz_pressure, speed, u1,
         u2, sliding_speed, slide_roll_ratio, slip_percent, temperature, viscosity; or position, angle, time, duration,
         which change no number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a
-        temperature has to
+        temperature has to. A key that takes a name, such as lubricant.grade, has it in its cells
 
     Raises
     ------
@@ -133,9 +133,15 @@ def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
             raise InputError(
                 "points: a file has one number in a column", recommendation=f"{BOTH_RADII} in place of radii"
             )
-        quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
-        units = [quantity.unit for quantity in quantities]
-        given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units, of_other_kind=OTHER_LOAD)))
+        of_headings = [_quantity(*name_and_unit(heading)) for heading in headings]
+        units = [quantity.unit for _, quantity in of_headings]
+        words = {
+            heading: typical(key) if key in KEYS else None
+            for heading, (key, _) in zip(headings, of_headings)
+            if key not in NAMED_COLUMNS
+        }
+        columns_of_file = read_columns(path, headings, units, of_other_kind=OTHER_LOAD, words=words)
+        given: dict[str, list[Any]] = dict(zip(headings, columns_of_file))
         in_file = True
     else:
         given = _with_both_radii(_as_columns(table))
@@ -254,6 +260,8 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
 def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quantity) -> Any:
     """Return one value in the unit of its ``key``; ``unit``: of its heading."""
     value = validate.python_value(value)
+    if isinstance(value, str) and key in KEYS and value in typical(key):
+        return value
     if isinstance(value, str) and key in {*KEYS, *NAMED_COLUMNS}:
         value, given = in_si(f"points: {heading}", value)
         if given != _row(quantity.unit):

@@ -111,7 +111,7 @@ def test_vickers_hardness_is_load_over_projected_area():
         ("lubricant", OIL_KEYS | {"temperature": 340.0}, "one of temperature, temperature_celsius"),
         ("lubricant", OIL_KEYS | {"viscosity": 0.1}, "one of them"),
         ("lubricant", OIL_KEYS | {"nu40": 1e-4, "nu100": 1e-5}, "one of grade, nu40\\+nu100"),
-        ("lubricant", {"nu40": 68e-6, "temperature": 340.0}, "needs nu100"),
+        ("lubricant", {"nu40": 68e-6, "temperature": 340.0}, "needs nu100 or viscosity_index"),
         ("lubricant", {"base": "pao"}, "needs an oil"),
         ("bodies", {"radii": [0.01, -0.005]}, "negative for a hollow"),
         ("bodies", {"load": 10.0, "hertz_pressure": 1e9}, "one of load, hertz_pressure"),
@@ -128,6 +128,14 @@ def test_a_viscosity_index_beside_what_gives_it_is_refused(other):
     """It would do nothing."""
     with pytest.raises(lubfric.InputError, match="viscosity_index and .*give the same quantity"):
         PAPER.with_(lubricant={"viscosity_index": 95, "temperature": 340.0} | other)
+
+
+def test_another_viscosity_at_40_degrees_keeps_the_index_that_was_given():
+    graded = PAPER.with_(lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 340.0})
+    by_grade, by_nu40 = (graded.with_(lubricant=oil).lubricant for oil in ({"grade": "ISO VG 32"}, {"nu40": 32e-6}))
+    assert by_nu40.viscosity == pytest.approx(by_grade.viscosity, rel=1e-9)
+    with pytest.raises(lubfric.InputError, match="needs nu100 or viscosity_index"):
+        graded.with_(lubricant={"nu40": 68e-6, "nu100": 8.7e-6}).with_(lubricant={"nu40": 32e-6})
 
 
 def test_an_index_beside_the_viscosity_at_40_degrees_is_that_of_the_oil():

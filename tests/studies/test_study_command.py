@@ -188,6 +188,42 @@ def test_shares_of_a_table_of_points_are_those_of_its_columns():
     assert [effect.share for effect in effects.values()] == pytest.approx([0.8, 0.2])
 
 
+def drawn_designs(repeated):
+    """Points that are designs, P = F Sq², a sample of 64 and so many rows at one roughness and load."""
+    sample = lubfric.sample([lubfric.Between(1.0, 8.0, "log"), lubfric.Between(5e-8, 2e-7, "log")], 64)
+    rows = [*sample, *[(4.0, 7e-8)] * repeated]
+    table = {"load [N]": [row[0] for row in rows], "surface.sq": [row[1] for row in rows], "speed": [0.1] * len(rows)}
+    plan = lubfric.plan_study(SMALL, points=table)
+    columns = lubfric.study(SMALL, {}, [0.3]).columns
+    columns = {name: np.full(len(rows), values.item()) for name, values in columns.items()}
+    loss = np.array([load * (1e7 * sq) ** 2 for load, sq in rows])
+    ends = {"power_loss": loss, "power_loss_low": 0.99 * loss, "power_loss_high": 1.01 * loss}
+    return studies.StudyResult(plan, columns | ends, np.full(loss.shape, "converged"), violations_at(loss.shape))
+
+
+def test_rows_that_repeat_a_design_leave_no_effect_of_an_input():
+    """ln P varies by (ln 8)² of the load, and by (2 ln 4)² of the roughness."""
+    parts = np.array([np.log(8), 2 * np.log(4)]) ** 2
+    effects = studies.main_effects(drawn_designs(0), "power_loss")
+    assert [effects[key].share for key in ("bodies.load", "surface.sq")] == pytest.approx(parts / parts.sum(), abs=0.02)
+    repeated = drawn_designs(16)
+    assert not studies.main_effects(repeated, "power_loss")
+    assert "16 points share one value of" in studies.why_not_separated(repeated, "power_loss")
+
+
+def test_points_that_are_designs_are_compared_as_a_whole():
+    result = drawn_designs(0)
+    (one,) = result.best("power_loss")
+    assert one.row == int(result["power_loss"].argmin()) + 1 and set(one.design) == {"bodies.load", "surface.sq"}
+    assert "mean power loss" not in " ".join(study_answer.answer_lines(result))
+    with pytest.raises(lubfric.InputError, match="result.best"):
+        result.best_mean("power_loss")
+    with pytest.raises(lubfric.InputError, match="no law over other inputs is offered"):
+        result.law()
+    with pytest.raises(lubfric.InputError, match="vary no design"):
+        lubfric.study(SMALL, points={"load": [3.0, 4.0], "speed": [0.1, 0.2]}).best()
+
+
 def test_a_grade_that_is_varied_is_no_common_input():
     graded = SMALL.with_(lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60})
     page = study_inputs.common_inputs(
