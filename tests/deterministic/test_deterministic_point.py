@@ -7,7 +7,17 @@ import pytest
 
 import lubfric
 from lubfric.film import LineContact
-from lubfric.models.deterministic import Work, dry_contact, evaluated, lay_out, march, reach, residuals, solve_point
+from lubfric.models.deterministic import (
+    Work,
+    dry_contact,
+    error_by_gap,
+    evaluated,
+    lay_out,
+    march,
+    reach,
+    residuals,
+    solve_point,
+)
 from lubfric.models.deterministic.linear import CYCLES, MOST_KRYLOV
 from lubfric.models.deterministic.newton import newton
 from lubfric.models.deterministic.solve import dry_start, refined_start
@@ -135,7 +145,7 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
 
 
 def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
-    """The warning against what it warns of: f at half of that gap."""
+    """Note and error against what they are of: f at half of that gap."""
     for problem, drawn, least, most in (
         (bearing(1e-7, 3e5, 1e-3, across=16), True, 2e-3, 0.03),
         (rough(32, 18333.0, 0.01, LIMITED), False, 0.0, 1e-3),
@@ -143,6 +153,23 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
         result = solve_point(problem)
         moved = abs(solve_point(replace(problem, floor=0.5e-9)).coefficient / result.coefficient - 1)
         assert (result.share_given_off > 0.1) == drawn and least <= moved < most
+        parts = {"rubbing": result.split.rubbing / result.load, "boundary": result.boundary / result.load}
+        assert moved <= error_by_gap(result.share_given_off, **parts, f=result.coefficient) + 1e-5
+
+
+def test_the_error_by_the_gap_of_touching_bodies_vanishes_with_what_they_give_off_and_with_the_film():
+    """By hand, at its limits, and without a step; f_b = 0.1, a film of 0.04, and one that rubs more."""
+
+    def at(given_off, share, film=0.04):
+        f = 0.1 * share + film * (1 - share)
+        return error_by_gap(given_off, rubbing=share, boundary=0.1 * share, f=f)
+
+    assert at(0.0, 0.5) == 0.0 and at(1.0, 1.0) == 0.0
+    assert at(0.2, 0.5) == pytest.approx(0.2 * 0.05 / 0.07) and at(0.2, 0.5, 0.3) == pytest.approx(0.2 * 0.15 / 0.2)
+    assert error_by_gap(0.3, rubbing=0.0, boundary=0.0, f=-1e-4) == pytest.approx(0.3)  # pure rolling
+    shares = np.linspace(1e-9, 1.0, 50)
+    assert all(abs(at(g + 1e-6, s) - at(g, s)) < 1e-5 for g in (0.0, 0.1, 0.5) for s in shares)
+    assert all(abs(at(0.5, s - 1e-6) - at(0.5, s)) < 1e-5 for s in shares[1:])
 
 
 @pytest.mark.parametrize(

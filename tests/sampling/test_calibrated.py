@@ -777,7 +777,7 @@ def test_a_film_thinner_than_the_boundary_film_that_is_not_given_is_reported():
 
 
 def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give_off_the_lubricant(monkeypatch):
-    """Two per cent, as its note says: twice what half of that gap changes (`test_deterministic_point`)."""
+    """As its note says: that share of the load of the film, with the friction of asperities or film."""
     scene = PAPER.with_(
         bodies={"load": 200.0},
         surface={"correlation_length": 16e-6},
@@ -786,9 +786,14 @@ def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give
     )
     result = lubfric.friction(scene, 1e-4)
     (note,) = (entry for entry in result.validity if entry.assumption == Assumption.LUBRICANT_PASSES)
-    assert note.is_note and "the interval of f includes an error of 2 % for this" in note.consequence
-    monkeypatch.setattr(answer, "ERROR_BY_GAP", 0.0)
+    assert note.is_note
+    (stated,) = re.findall(r"the interval of f includes an error of ([0-9.]+) % for this", note.consequence)
+    monkeypatch.setattr(answer, "error_by_gap", lambda *args, **kwargs: 0.0)
     without = lubfric.friction(scene, 1e-4)
     assert without.coefficient == result.coefficient
     by_gap = math.sqrt(result.uncertainty.model**2 - without.uncertainty.model**2)
-    assert by_gap == pytest.approx(0.02, rel=0.1)
+    assert 100 * by_gap == pytest.approx(float(stated), rel=0.1)
+    (of_strip,) = result.details.values()
+    on_film = 1 - of_strip.split.rubbing / of_strip.load
+    by_hand = of_strip.share_given_off * on_film * scene.bodies.boundary_friction_coefficient / of_strip.coefficient
+    assert by_gap == pytest.approx(by_hand, rel=0.3)

@@ -1,6 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .answer import answer_of, violations_by_correction
+from .answer import answer_of, error_by_gap, violations_by_correction
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells

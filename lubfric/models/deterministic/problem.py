@@ -29,7 +29,7 @@ from ...scene import BOUNDARY_FILM
 from ...surface import Surface
 from ..shared import Memo, OperatorKey
 
-FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice (`ERROR_BY_GAP` has what half of it changes)
+FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice (`error_by_gap` has what it changes)
 
 # The effects of half and twice the lengths of the grid are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.problem`).
