@@ -33,10 +33,10 @@ READ = ("startswith", "endswith", "split", "partition", "rpartition", "find", "i
 EDITED = ("replace", "removeprefix", "removesuffix")
 # Two words of a sentence.
 WORDS = re.compile(r"[A-Za-z]{2,}[,:]? [A-Za-z]{2,}")
-# Constants of several words that name a thing, as a key does: a part of a table, an enumeration, the progress, or the
-# head of a note (UNKNOWN), which a list of such notes omits.
+# Constants of several words that name a thing, as a key does: a part of a table, an enumeration, the progress, an
+# option (WITHOUT_ADDED), or the head of a note (UNKNOWN), which a list of such notes omits.
 NAMES = frozenset(
-    "ASPERITY_LOAD_RATIO BEFORE_STEPS CONVERGED_COLUMN FEW_TOUCH MISSING OF_RUNS_IN_TIME RECORDED UNKNOWN UNUSED".split()
+    "ASPERITY_LOAD_RATIO BEFORE_STEPS CONVERGED_COLUMN FEW_TOUCH MISSING OF_RUNS_IN_TIME RECORDED UNKNOWN UNUSED WITHOUT_ADDED".split()
 )
 NAMED_PARTS = ("not given",)
 # The readers of files of instruments, which read the words of these.
