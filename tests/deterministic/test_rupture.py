@@ -39,6 +39,33 @@ def test_weak_suction_beside_strong_waits(suction, result):
     assert ruptured(suction) == result
 
 
+def test_weak_suction_behind_strong_waits_in_a_step_in_time_alone():
+    """A rupture takes from the inflow of the cell behind it, so that is under more suction soon."""
+    pressure = SOLVED.state.pressure.copy()
+    row = int(np.argmax(pressure.mean(axis=1)))
+    pressure[row : row + 3, 5] = np.array([-0.1, -0.02, -0.02 * 0.09]) * pressure.max()
+    pressure[row - 1, 5] = -0.02 * pressure.max()  # before the strong one
+    tried = replace(SOLVED.state, pressure=pressure)
+    for in_time, expected in ((False, [False, True, True, False]), (True, [False, True, False, False])):
+        kind = admissible(PROBLEM, tried, in_time=in_time).kind
+        assert (kind[row - 1 : row + 3, 5] == RUPTURED).tolist() == expected
+
+
+def test_a_rupture_moves_through_a_steady_film_in_few_steps(monkeypatch):
+    """It moves downstream, and by one cell in a step where cells wait for those upstream; f is the same."""
+    fine = lubfric.generate_surface((96, 48), 1e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=4)
+
+    def solved():
+        films = [lay_out(fine, SCENE.line_contact(v), sliding=0.1, boundary_friction=0.09) for v in (0.05, 0.01, 1e-3)]
+        points = [solve_point(film) for film in films]
+        return sum(point.report.iterations for point in points), [point.coefficient for point in points]
+
+    (steps, f) = solved()
+    monkeypatch.setattr(state, "STRONG_SUCTION_UPSTREAM", state.STRONG_SUCTION)
+    (steps_of_waiting, f_of_waiting) = solved()
+    assert steps < steps_of_waiting and f == pytest.approx(f_of_waiting, rel=1e-5)
+
+
 def test_a_solution_has_no_suction_whatever_ruptures_first(monkeypatch):
     monkeypatch.setattr(state, "STRONG_SUCTION", 0.0)
     other = solve_point(PROBLEM)

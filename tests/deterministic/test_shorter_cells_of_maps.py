@@ -130,11 +130,11 @@ def test_a_change_of_a_patch_that_is_small_by_chance_does_not_make_its_error_sma
 
 
 @pytest.mark.parametrize("speed", [0.003, 0.03])
-def test_the_work_of_a_short_strip_is_estimated_within_three(scene, speed):
+def test_the_work_of_a_short_strip_is_estimated_within_four(scene, speed):
     """Oracle: the counted work of the solve, of which the processor takes about two thirds."""
     prepared = lubfric.prepare(scene)
     expected = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed).seconds
     with limited_work(1e3) as meter:
         lubfric.friction(prepared, speed)
     taken = 0.64 * meter.spent
-    assert taken / 3 <= expected <= 3 * taken
+    assert taken / 4 <= expected <= 4 * taken

@@ -63,19 +63,19 @@ def test_steps_of_a_narrow_contact_begin_with_the_pressure_moved(monkeypatch):
 
 
 def test_steps_begin_with_roughness_moved_by_a_part_of_a_cell(monkeypatch):
-    """Of 0.58 of a cell in a step: less than 0.6 of the work from complete cells, and the same friction."""
+    """Of 0.58 of a cell in a step: less than 0.7 of the work from complete cells, and the same friction."""
     case = drawn("rolling", 2)
 
     def followed():
         effort = replace(ECONOMICAL, discarded=0.3)
-        strip = solve_moving_strip(case.scene, case.bodies, case.speed, most_steps=5, effort=effort)
+        strip = solve_moving_strip(case.scene, case.bodies, case.speed, most_steps=8, effort=effort)
         return strip.work - strip.rest.work, strip.result.coefficient
 
     by_parts, friction = followed()
     cells = moving_strip.cells_in_a_step
     monkeypatch.setattr(moving_strip, "cells_in_a_step", lambda *given: float(round(cells(*given))))
     by_cells, same_friction = followed()
-    assert by_parts < 0.6 * by_cells
+    assert by_parts < 0.7 * by_cells
     assert friction == pytest.approx(same_friction, rel=2e-3)
 
 

@@ -155,7 +155,7 @@ def newton(
     residual_history: list[float] = []
     promised: list[float] = []
     most = min(most, work.left)
-    at = evaluated(problem, admissible(problem, state), history)
+    at = evaluated(problem, admissible(problem, state, in_time=history is not None), history)
     while True:
         at = update_active_sets(at)
         result = NewtonResult(at, residuals(at))
@@ -203,7 +203,7 @@ def _advanced(system: System, step: Change, least: float) -> tuple[Iterate, floa
     length = _longest(at, step, least)
     measures: list[float] = []
     for _ in range(STEP_HALVINGS):
-        tried = admissible(at.problem, step.added(at.state, length))
+        tried = admissible(at.problem, step.added(at.state, length), in_time=at.history is not None)
         new = evaluated(at.problem, tried, at.history)
         of_all = _imbalance(new, apart)
         counted = apart if at.history is not None else apart & (tried.kind == at.state.kind)
