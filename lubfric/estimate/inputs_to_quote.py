@@ -4,10 +4,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..film import line_peak_pressure
-from ..oil import Lubricant
+from ..oil import Lubricant, Oil
 from ..quantities import COLUMNS, KEYS, worded_value
 from ..samples import rough_bodies
-from ..scene import BOUNDARY_FILM, HISTORIES, Roughness, Scene
+from ..scene import BOUNDARY_FILM, HISTORIES, Roughness, Scene, materials_of
 from ..surface import Surface
 from ..units import worded
 
@@ -16,6 +16,15 @@ ESTIMATED_BY = ("gold", "so-klaus")
 
 # Key of the pressure-viscosity coefficient.
 ALPHA_KEY = "lubricant.pressure_viscosity_coefficient"
+
+
+# What the asperities of a `lubfric.scene.ContactDomain.model` are; of the half-space they are the cells of the map.
+ASPERITIES_TO_QUOTE = {
+    "summits": ("independent asperities, one at each summit of the map, with the radius of its mean curvature there",),
+    "patches": (
+        "independent asperities, one at each patch of the map above the separation, with the radius of its area",
+    ),
+}
 
 
 def inputs_to_quote(
@@ -49,11 +58,14 @@ def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
     if histories is None or (histories.load is None and histories.radius is None):
         peak = line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
         yield f"peak Hertz pressure {worded(peak, 'Pa')}"
+    if materials := materials_of(bodies):
+        yield "material of the bodies " + " and ".join(dict.fromkeys(materials))
     yield f"reduced modulus E' {worded(bodies.e_prime, 'Pa')}, where 2/E' = (1 - ν1²)/E1 + (1 - ν2²)/E2"
     if bodies.hardness is None:
         yield "elastic asperities, without a plastic limit"
     else:
         yield f"plastic limit of the contact pressure {worded(bodies.hardness, 'Pa')}{_range(scene, 'bodies.hardness')}"
+    yield from ASPERITIES_TO_QUOTE.get(scene.contact.model, ())
 
 
 def lubricated_contact_to_quote(scene: Scene, *, takes_boundary_film: bool = True) -> Iterator[str]:
@@ -182,11 +194,20 @@ def _of_measured_oils(lubricant: Lubricant) -> str:
     return f" (estimated; the range of measured oils, {ends}, is not in the interval of f)"
 
 
+def _name(oil: Oil) -> str:
+    """Return the grade or the name of ``oil``, or else the viscosities that it is given by, as text."""
+    given = oil.given_keys
+    if "grade" in given or not {"nu40", "nu100"} <= {*given}:
+        return str(given.get("grade", oil.name))
+    named = "" if oil.name == Oil.name else f"{oil.name}, "
+    return f"{named}{worded(given['nu40'], 'm2/s')} at 40 °C and {worded(given['nu100'], 'm2/s')} at 100 °C"
+
+
 def _lubricant(scene: Scene) -> Iterator[str]:
     lubricant = scene.lubricant
     oil = lubricant.oil
     if oil is not None:
-        yield f"lubricant {oil.given_keys.get('grade', oil.name)} ({oil.base})"
+        yield f"lubricant {_name(oil)} ({oil.base})"
         if "viscosity_table" not in oil.given_keys:  # which may not have 40 and 100 °C
             yield f"viscosity index {oil.index:.4g}"
     if lubricant.temperature is not None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..models import title_of
-from ..models.shared import Decision
+from ..models.shared import UNKNOWN_SIDES, Decision
 from ..quantities import COLUMNS
 from ..scene import BOUNDARY_FILM
 from ..units import worded
@@ -16,13 +16,18 @@ from .uncertainty import PARTS, Uncertainty
 # What chose among the models that may answer.
 WHICH_MODEL = ", the cheapest within the tolerances at each point"
 
+# What the numbers behind the parts of the interval are.
+SIZES_IN_PARAGRAPH = " (in brackets half its width by each alone, relative to f)"
+
 # Authors of a source that are named; of more the first alone. A convention.
 NAMED_AUTHORS = 2
 
-# Parts of the interval that are no errors of their own name, in the paragraph; {}: the inputs.
+# Parts of the interval that are no errors of their own name, in the paragraph, of one input and of several; {}: the
+# inputs.
+ASSUMED_RANGE = f"the assumed range of the {{}}, half to twice {worded(BOUNDARY_FILM, 'm')}"
 PARTS_IN_PARAGRAPH = {
-    "not given": f"the assumed range of the {{}}, half to twice {worded(BOUNDARY_FILM, 'm')}",
-    "input": "the stated range of the {}",
+    "not given": (ASSUMED_RANGE, ASSUMED_RANGE),
+    "input": ("the stated range of the {}", "the stated ranges of the {}"),
 }
 
 
@@ -57,7 +62,11 @@ def methods_paragraph(
     sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
     sentences += [f"The methods are: {methods}."] if methods else []
     parts = _parts_of_interval(uncertainties)
-    sentences += [f"The 95 % interval of f contains {_joined(parts)}{_widths(uncertainties)}."] if parts else []
+    sentences += (
+        [f"The 95 % interval of f contains{SIZES_IN_PARAGRAPH} {_joined(parts)}{_widths(uncertainties)}."]
+        if parts
+        else []
+    )
     return " ".join(sentences)
 
 
@@ -79,41 +88,61 @@ def _span(numbers: Sequence[int]) -> str:
 
 
 def _widths(uncertainties: Sequence[Uncertainty]) -> str:
-    """Return the range of half the widths of the intervals, relative to f, as text; "" where none is known. Where f is
-    near 0 it has none."""
-    known = [each for each in uncertainties if np.isfinite(each.interval).all() and not each.is_near_zero]
-    halves = [100 * (each.interval[1] - each.interval[0]) / abs(2 * each.coefficient) for each in known]
-    if not halves:
-        return ""
-    ends = dict.fromkeys(f"{float(f'{half:.2g}'):g}" for half in (min(halves), max(halves)))
-    return f"; half its width is {' to '.join(ends)} % of f"
+    """Return the range of half the widths of the intervals, relative to f, as text; "" where none is known."""
+    halves = [
+        (each.interval[1] - each.interval[0]) / abs(2 * each.coefficient)
+        for each in _with_relative_errors(uncertainties)
+    ]
+    return f"; half its width is {_percents(halves)} of f" if halves else ""
+
+
+def _with_relative_errors(uncertainties: Sequence[Uncertainty]) -> list[Uncertainty]:
+    """Return those of the ``uncertainties`` that have an interval relative to f: where f is near 0 there is none."""
+    return [each for each in uncertainties if np.isfinite(each.interval).all() and not each.is_near_zero]
+
+
+def _percents(shares: Sequence[float]) -> str:
+    """Return the range of ``shares`` as text: "0.74 %", or "1.4 to 12 %"."""
+    ends = dict.fromkeys(f"{float(f'{100 * share:.2g}'):g}" for share in (min(shares), max(shares)))
+    return f"{' to '.join(ends)} %"
+
+
+def _size_of_part(name: str, uncertainties: Sequence[Uncertainty]) -> str:
+    """Return the range of a part of the budget, by its ``name`` in `PARTS`, as text to be appended: " (1.4 to 12 %)";
+    "" where it is not known relative to f."""
+    sides_by = PARTS[name].sides
+    sizes = []
+    for each in _with_relative_errors(uncertainties):
+        sides = getattr(each, sides_by) if sides_by else UNKNOWN_SIDES
+        size = float(np.mean(sides)) if np.isfinite(sides).all() else each.budget[name]
+        sizes += [size] if np.isfinite(size) else []
+    return f" ({_percents(sizes)})" if sizes else ""
 
 
 def _parts_of_interval(uncertainties: Sequence[Uncertainty]) -> list[str]:
-    """Return what the intervals contain that are known, as text."""
+    """Return what the intervals contain that are known, each with its size, as text."""
     known = [each for each in uncertainties if np.isfinite(each.interval).all()]
-    errors = []
-    ranges = []
+    parts = []
     for name, part in PARTS.items():
         if not any(getattr(each, part.quantity) > 0 for each in known):
             continue
+        size = _size_of_part(name, known)
         if name not in PARTS_IN_PARAGRAPH:
-            errors.append(name)
+            parts.append(f"the {name} error{size}")
             continue
         missing = (each.missing_input for each in known)
         given = (key for each in known for key in each.inputs_in_interval)
         keys = dict.fromkeys(missing if name == "not given" else given)
         labels = [COLUMNS[key].label if key in COLUMNS else key for key in keys if key]
-        ranges += [PARTS_IN_PARAGRAPH[name].format(label) for label in labels]
-    if not errors:
-        return ranges
-    return [f"the {_joined(errors)} error{'s' if len(errors) > 1 else ''}", *ranges]
+        if labels:
+            parts.append(f"{PARTS_IN_PARAGRAPH[name][len(labels) > 1].format(_joined(labels))}{size}")
+    return parts
 
 
 def _reference(source: dict[str, Any]) -> str:
     """Return a ``source`` as it is cited within a sentence: "Polonsky and Keer 1999, doi:..."."""
     if source["type"] == "software":
-        return f"{source['author'][0]} {source['year']}, lubfric {source['version']}, {source['manual']}"
+        return f"a method of lubfric {source['version']} itself, described in its {source['manual']}"
     if source["type"] == "techreport":
         return f"{source['number']}, {source['year']}"
     names = [author.rpartition(" ")[2] for author in source["author"]]

@@ -74,6 +74,7 @@ def named_oil(name: str, **properties: Any) -> Oil:
     row = OILS[key]
     law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=key)
     fields: dict[str, Any] = {"base": row["base"], "name": row["name"], "density": row.get("density")}
+    fields["note"] = row.get("note", "")
     if "alpha" in row:
         fields["measured"] = MeasuredCoefficients(
             temperatures=tuple(celsius + CELSIUS for celsius in row["alpha_at"]),
@@ -113,7 +114,7 @@ def _viscosity(name: str, value: float) -> float:
 
 def list_oils() -> str:
     """Return one line for each named oil."""
-    lines = [f"{name:<16} {row['name']}" for name, row in OILS.items()]
+    lines = [f"{name:<16} {named_oil(name).name_and_note}" for name in OILS]
     other = 'any other: grade = "ISO VG 68" with viscosity_index, or nu40 and nu100 in m²/s, in [lubricant]'
     return "\n".join([*lines, "", other])
 
@@ -122,7 +123,7 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     """Return the viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the
     coefficient is known."""
     text = (
-        f"{oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
+        f"{oil.name_and_note} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
         f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"
     )
     alpha = oil.pressure_viscosity_coefficient(temperature)

@@ -33,7 +33,7 @@ class Oil(Shown):
     alpha : pressure-viscosity coefficient [1/Pa] where it is known (None: estimated)
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
-    name : as text
+    name : as text, and note : what else is known of it
     measured : pressure-viscosity coefficients over the temperature (None: estimated); ``alpha`` comes first
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
@@ -47,6 +47,7 @@ class Oil(Shown):
     estimate: str | None = None
     conductivity: float | None = None
     name: str = "oil"
+    note: str = ""
     measured: MeasuredCoefficients | None = None
 
     def __post_init__(self) -> None:
@@ -148,6 +149,11 @@ class Oil(Shown):
     def index(self) -> float:
         """Return viscosity index [-] (ASTM D2270), from the law at 40 and 100 °C."""
         return viscosity_index(self.kinematic_viscosity(40 + CELSIUS), self.kinematic_viscosity(100 + CELSIUS))
+
+    @property
+    def name_and_note(self) -> str:
+        """The name, and the note behind it where there is one, as text."""
+        return "; ".join(filter(None, (self.name, self.note)))
 
     def with_(self, **changed: Any) -> Oil:
         """Return a copy with fields replaced."""

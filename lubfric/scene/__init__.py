@@ -25,6 +25,7 @@ from .file import (
     write_template,
 )
 from .history import Constant, Harmonic, History, Ramp, Table, horizon_of
+from .materials import materials_of
 from .moments import LongestContact, longest_contact, sampled_times
 from .numerics import Numerics
 from .plausible import (

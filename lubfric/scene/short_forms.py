@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import packaged, validate
+from .._base import validate
 from ..errors import InputError
 from ..film import composite_modulus
 from ..oil import (
@@ -28,6 +28,7 @@ from ..oil import (
 from ..surface import PER_SQ
 from ..units import HV
 from .bodies import Bodies, friction_of, pair
+from .materials import fields_of_materials
 from .roughness import Roughness
 
 MOST_SPEEDS = 1_000_000  # of a range. A convention
@@ -103,19 +104,6 @@ def reduced_radius(radii: Any) -> float:
 
 def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
     return {"radius": reduced_radius(radii)}
-
-
-def _of_materials(names: Any, *_: Any) -> dict[str, Any]:
-    """Return fields of one or two named materials (materials.toml)."""
-    known = packaged(__package__, "materials.toml")
-    both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
-    first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
-    moduli = [m[name] for m in (first, second) for name in ("young_modulus", "poisson_ratio")]
-    return {
-        "e_prime": composite_modulus(*moduli),
-        "conductivity": (first["conductivity"], second["conductivity"]),
-        "volumetric_heat": tuple(m["density"] * m["specific_heat"] for m in (first, second)),
-    }
 
 
 def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict[str, Any]:
@@ -312,7 +300,7 @@ FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dic
     # gives these fields, and others that count where they are not given
     "bodies": (
         (("radii",), ("radius",), _of_radii),
-        (("material",), ("e_prime",), _of_materials),
+        (("material",), ("e_prime",), fields_of_materials),
         (("young_modulus", "poisson_ratio"), ("e_prime",), _of_moduli),
         (("hardness_hv",), ("hardness",), lambda hv, *_: {"hardness": HV * validate.of_key("bodies.hardness_hv", hv)}),
         (("hertz_pressure",), ("load",), _of_hertz_pressure),

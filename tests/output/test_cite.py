@@ -50,10 +50,12 @@ def test_a_paragraph_to_quote_has_what_was_used():
         50 * (each.interval[1] - each.interval[0]) / each.coefficient for each in (p.uncertainty for p in curve.points)
     )
     assert text.endswith(f"; half its width is {low:.2g} to {high:.2g} % of f.")
-    known = (
-        "the numerical, sampling and model-form errors and the assumed range of the boundary film, half to twice 20 nm"
-    )
-    assert known in text and "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
+    for part, name in (("numerical error", "numerical"), ("sampling error", "sampling")):
+        ends = sorted(100 * each.budget[name] for each in (p.uncertainty for p in curve.points))
+        assert f"the {part} ({ends[0]:.2g} to {ends[1]:.2g} %)" in text
+    known = r"the model-form error \(.* %\) and the assumed range of the boundary film, half to twice 20 nm \([\d.]+"
+    assert re.search(known, text) and "a method of lubfric" in text and "Hu and Zhu 2000" in text
+    assert "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
     point = curve.points[1]
     assert "by its load-sharing model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
     assert "stated range" not in text and "stated range of the boundary friction coeff" in cites_methods(ANTI_WEAR)
@@ -117,6 +119,26 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     assert "lubricant from 300 µm upstream of the middle on" in starved
     assert "plastic limit of the contact pressure 2.5 GPa" in starved
     assert "load 100 to 200 N" in inputs and not any("peak" in text for text in inputs)
+
+
+def test_the_paragraph_names_oil_materials_and_asperities():
+    """As the scene gives them; moduli of no named material name none."""
+
+    def quoted(**changed):
+        return inputs_to_quote(PATCH.with_(**changed))
+
+    fva = quoted(lubricant={"oil": "FVA 3", "temperature": 333.15})
+    assert "lubricant FVA 3, paraffinic mineral oil, VI 92 (mineral)" in fva
+    assert "lubricant 68 mm²/s at 40 °C and 8.6 mm²/s at 100 °C (mineral)" in quoted(lubricant=OIL)
+    grade = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 333.15}
+    assert "lubricant ISO VG 68 (mineral)" in quoted(lubricant=grade)
+    for names in (["steel", "bronze"], ["bronze", "steel"], ["16MnCr5", "42CrMo4"]):
+        assert f"material of the bodies {' and '.join(names)}" in quoted(bodies={"material": names})
+    assert "material of the bodies 100Cr6" in quoted(bodies={"material": "100Cr6"})
+    for unnamed in ({"e_prime": 2.3e11}, {"material": "steel", "conductivity": (46.0, 47.0)}):
+        assert not any(text.startswith("material") for text in quoted(bodies=unnamed))
+    assert any("summit" in text for text in quoted(contact={"model": "summits"}))
+    assert not any("summit" in text for text in quoted())
 
 
 def test_a_mirrored_map_is_quoted_as_it_was_measured(tmp_path):
