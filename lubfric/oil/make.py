@@ -22,6 +22,11 @@ OILS = packaged(__package__, "oils.toml")["oils"]
 # Exponent of alpha in the central film of a full EHL contact [-] (Dowson and Toyoda 1978).
 FILM_EXPONENT = 0.56
 
+# What an error says of an SAE grade.
+SAE_OIL = (
+    "an SAE grade is not an ISO grade, and states ranges of viscosity: give nu40 and nu100 of the oil's data sheet"
+)
+
 
 def from_viscosities(nu40: float, nu100: float, **properties: Any) -> Oil:
     """Return an `Oil` from its kinematic viscosities [m²/s] at 40 and 100 °C, by ASTM D341 (constant 0.7).
@@ -68,8 +73,8 @@ def named_oil(name: str, **properties: Any) -> Oil:
     spelled = {_letters(known): known for known in OILS}
     if _letters(name) not in spelled:
         near = validate.nearest(str(name).lower(), OILS)
-        message = f" = {validate.shown(name)} is not known{near}"
-        raise InputError(message, "lubricant.oil", ", ".join(OILS))
+        message = f" = {validate.shown(name)} is not known{'' if _is_of_sae(name) else near}"
+        raise InputError(message, "lubricant.oil", ", ".join(OILS), SAE_OIL if _is_of_sae(name) else "")
     key = spelled[_letters(name)]
     row = OILS[key]
     law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=key)
@@ -84,6 +89,11 @@ def named_oil(name: str, **properties: Any) -> Oil:
     return Oil(viscosity_law=law, **fields | properties)
 
 
+def _is_of_sae(name: Any) -> bool:
+    """Return whether the name of an oil is a grade of SAE J300 or J306: "SAE 30", "5W-30"."""
+    return re.search(r"\bsae|\d+\s*w(\b|\s*[-/]?\s*\d)", str(name), re.IGNORECASE) is not None
+
+
 def _letters(name: Any) -> str:
     """Return the letters and digits of a name, in small letters: "FVA 3", "fva-3" and "fva3" are one."""
     return re.sub(r"[\s_-]", "", str(name)).lower()
@@ -95,8 +105,8 @@ def grade_viscosity(grade: str) -> float:
     match = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
     if not match or float(match[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
-        hint = "; an SAE grade is not an ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
-        raise InputError(f" = {grade!r} is not an ISO viscosity grade", "grade", f"'ISO VG n' with n of {names}{hint}")
+        hint = SAE_OIL if _is_of_sae(grade) else ""
+        raise InputError(f" = {grade!r} is not an ISO viscosity grade", "grade", f"'ISO VG n' with n of {names}", hint)
     return GRADES[float(match[1])] * 1e-6
 
 

@@ -242,7 +242,7 @@ def minimum_in_words(curve: StribeckResult) -> str:
             return f"The minimum of f lies {between} or at {others} speeds; solve these to find it."
         if is_at_end:
             errors = "" if beside else f"; by the numerical errors of the points it may lie {between}"
-            return f"The minimum of f is not reached: f still falls at the {name} speed, U = {sense * end:.3g} m/s{errors}."
+            return f"The minimum of f is not reached: f still falls towards the {name} speed, U = {sense * end:.3g} m/s{errors}."
     return f"The minimum of f lies {between}; {more}."
 
 

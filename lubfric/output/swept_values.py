@@ -88,6 +88,16 @@ def parse_ratios(text: str | None) -> list[float]:
     return ratios
 
 
+def _with_unit_of_end(low: str, high: str) -> list[str]:
+    """Return both ends of a range, the ``low`` one with the unit of the ``high`` one where it has none:
+    "0.1:5 m/s:11"."""
+    first = number_and_unit(low)
+    last = number_and_unit(high)
+    if first is None or last is None or first[1]:
+        return [low, high]
+    return [f"{low.strip()} {last[1]}".strip(), high]
+
+
 def _range(option: str, words: list[str], unit: str, most: float, *, linear: bool) -> list[float]:
     """Return the values of a range of ``words`` low, high and count, in equal steps or geometric. Raise `InputError`
     that says what is wrong with it, and what to write."""
@@ -96,7 +106,7 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     if len(words) != 3:
         parts = counted(len(words), "parts")
         raise InputError(f" {text} has {parts}", option, recommendation=f"write low:high:count, such as {example}")
-    (low, high) = numbers_of(option, words[:2], [unit, unit])
+    (low, high) = numbers_of(option, _with_unit_of_end(words[0], words[1]), [unit, unit])
     count = number_of(option, words[2], "-")  # without a unit, also where the ends are in percent
     for end in (low, high):
         validate.number(option, end, unit, minimum=-most, maximum=most)

@@ -33,6 +33,16 @@ def test_a_wrong_range_of_ratios(text, wrong):
         parse_ratios(text)
 
 
+def test_the_unit_of_the_end_of_a_range_is_that_of_its_begin():
+    """One unit behind both; a unit at the begin alone may be of it alone."""
+    assert parse_ratios("5:50 %:4:linear") == pytest.approx([0.05, 0.2, 0.35, 0.5])
+    np.testing.assert_allclose(parse_speeds("--speeds", "0.1:10 mm/s:3"), [1e-4, 1e-3, 1e-2])
+    np.testing.assert_allclose(parse_speeds("--speeds", "1 m/s:2000 mm/s:2"), [1.0, 2.0])
+    for text in ("1 mm/s:10:13", "1,5 mm/s"):
+        with pytest.raises(InputError, match="give each its unit, or none|write a point in decimals"):
+            parse_speeds("--speeds", text)
+
+
 def test_ranges_in_equal_and_in_geometric_steps():
     np.testing.assert_allclose(parse_ratios("0:0.5:11"), 0.05 * np.arange(11))
     np.testing.assert_allclose(parse_ratios("0.01:0.04:4:linear"), [0.01, 0.02, 0.03, 0.04])

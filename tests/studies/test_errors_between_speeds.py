@@ -144,7 +144,7 @@ def test_more_speeds_make_the_error_smaller():
     "speeds, stated",
     [
         ((3.59, 5.0), "U = 2 and 5 m/s or at higher speeds"),
-        ((5.0, 3.59, 5.0), "is not reached: f still falls at the fastest speed, U = 5 m/s."),
+        ((5.0, 3.59, 5.0), "is not reached: f still falls towards the fastest speed, U = 5 m/s."),
         ((5.0, 1.0, 5.0), "do not show"),
         ((0.05, 0.3), "U = 0.05 and 2 m/s or at lower speeds"),
         ((0.3, 4.0), "do not show where f has its minimum"),
