@@ -1,5 +1,7 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
+from __future__ import annotations
+
 from argparse import Namespace
 from dataclasses import asdict
 from typing import Any
@@ -30,6 +32,90 @@ PART_OF_LINE = 0.04
 BEFORE_STEPS = "before the first step"
 
 
+class HistoryProgress:
+    """What is printed about a run in time while it is solved: use as ``with progress: ...``.
+
+    ``reached``: the moment [s] that the run has reached.
+    """
+
+    def __init__(self, scene: Scene, run: RunEstimate, folder: commands.RunFolder):
+        assert scene.transient is not None
+        self.scene = scene
+        self.run = run
+        self.folder = folder
+        self.duration = scene.transient.duration
+        self.reached = 0.0
+        self._fastest = fastest_of_run(scene)
+        self._left = _time_left(scene, run)
+        self._slow = SlowRun(run.seconds, self.duration, self._speed_at)
+        self._line = ProgressLine("% of the duration", self._left, lambda: self._slow.text)
+        self._due = commands.paced()
+        self._reported = 0.0  # part of the expected steps at the last line
+
+    def __enter__(self) -> HistoryProgress:
+        self._line.__enter__()
+        if not self.folder.continues:
+            self._line.update(0.0, 100.0)
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self._line.__exit__(*error)
+
+    def on_begin(self, now: float, earlier: float) -> None:
+        """Begin at the moment ``now`` [s]; a run that continues took ``earlier`` seconds to it."""
+        self.reached = now
+        self._left.end(BEFORE_STEPS)
+        self._slow.begin(now, earlier)
+        for each in [each for each in self._left.expected if each <= now]:
+            self._left.omit(each)
+        self.folder.begun = self.folder.begun._replace(earlier=earlier)
+        share = self._share(now)
+        self._line.update(share, 100.0)
+        if now > 0.0:
+            commands.say(
+                f"the run continues at t = {now:.5g} s, {share:.1f} % of the duration, which took {in_words(earlier)} of "
+                "processor time"
+            )
+
+    def on_step(self, now: float, duration: float, row: dict[str, float] | None) -> None:
+        """Note that the run has reached ``now`` [s], and now and then print the numbers of that moment, its ``row``
+        (None: it is not an output)."""
+        self._left.end(now)
+        self._slow.step(now)
+        self.reached = now
+        self._line.update(self._share(now), 100.0)
+        if row is not None and self._is_due(now):
+            commands.say(self._moment_in_words(now, row))
+
+    def _share(self, now: float) -> float:
+        return 100.0 * now / self.duration
+
+    def _is_due(self, now: float) -> bool:
+        part = self.run.part(now)
+        is_end = now >= self.duration
+        if not (is_end or part >= self._reported + PART_OF_LINE) or not self._due(end=is_end):
+            return False
+        self._reported = part
+        return True
+
+    def _moment_in_words(self, now: float, row: dict[str, float]) -> str:
+        time_left = "" if now >= self.duration else self._left.in_words(FILES_SECONDS)
+        speeds = {name: np.array([row[name]]) for name in ("entrainment_speed", "sliding_speed")}
+        friction = f"U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:z.5f}"
+        if not in_motion(speeds, self._fastest)[0]:
+            friction = "at rest: no f"
+        return (
+            f"{self._share(now):.0f} % of the duration{time_left}: t = {now:.5g} of {self.duration:g} s, {friction}, "
+            f"F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
+            f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
+        )
+
+    def _speed_at(self, now: float) -> float:
+        assert self.scene.transient is not None
+        speed = self.scene.transient.speed
+        return self.scene.motion.entrainment_speed if speed is None else speed.before(now)
+
+
 def run_history(scene: Scene, arguments: Namespace) -> None:
     """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
     ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
@@ -38,79 +124,27 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
     raises `ConvergenceError`.
     """
-    reached = 0.0
-    continues = False
-    reported = 0.0
-    due = commands.paced()
-    failure: LubfricError | None = None
-    names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
-
-    def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
-        nonlocal reached, reported
-        left.end(now)
-        slow.step(now)
-        reached = now
-        part = run.part(now)
-        share = 100.0 * now / duration
-        shown.update(share, 100.0)
-        is_end = now >= duration
-        if row is None or not (is_end or part >= reported + PART_OF_LINE) or not due(end=is_end):
-            return
-        reported = part
-        time_left = "" if is_end else left.in_words(FILES_SECONDS)
-        head = f"{share:.0f} % of the duration{time_left}: t = {now:.5g} of {duration:g} s, "
-        speeds = {name: np.array([row[name]]) for name in ("entrainment_speed", "sliding_speed")}
-        friction = f"U = {row['entrainment_speed']:.4g} m/s, f = {row['coefficient']:z.5f}"
-        if not in_motion(speeds, fastest)[0]:
-            friction = "at rest: no f"
-        commands.say(
-            f"{head}{friction}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
-            f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
-        )
-
-    def on_begin(now: float, earlier: float) -> None:
-        nonlocal reached
-        reached = now
-        left.end(BEFORE_STEPS)
-        slow.begin(now, earlier)
-        for each in [each for each in left.expected if each <= now]:
-            left.omit(each)
-        folder.begun = folder.begun._replace(earlier=earlier)
-        share = 100.0 * now / duration
-        shown.update(share, 100.0)
-        if now > 0.0:
-            commands.say(
-                f"the run continues at t = {now:.5g} s, {share:.1f} % of the duration, which took {in_words(earlier)} of "
-                "processor time"
-            )
-
-    def speed_at(now: float) -> float:
-        assert scene.transient is not None
-        speed = scene.transient.speed
-        return scene.motion.entrainment_speed if speed is None else speed.before(now)
+    progress: HistoryProgress | None = None
 
     def kept() -> str:
-        if reached == 0.0:
-            return f"the state that an earlier run saved is kept in {arguments.out}" if continues else ""
-        return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
+        if progress is None:
+            return ""
+        if progress.reached > 0.0:
+            return f"the state at t = {progress.reached:.5g} s is kept in {arguments.out}"
+        return f"the state that an earlier run saved is kept in {arguments.out}" if progress.folder.continues else ""
 
-    assert scene.transient is not None
-    duration = scene.transient.duration
-    fastest = fastest_of_run(scene)
-    begun = commands.run_begun(scene, arguments, names, kept)
-    with begun as (folder, prepared, estimate):
-        continues = folder.unfinished.is_dir()
-        folder.continues = continues
-        if continues:
+    names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
+    failure: LubfricError | None = None
+    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, estimate):
+        folder.continues = folder.unfinished.is_dir()
+        if folder.continues:
             commands.say(f"the run continues from {folder.unfinished}")
         assert estimate.run is not None
-        run = estimate.run
-        left = _time_left(scene, run)
-        slow = SlowRun(run.seconds, duration, speed_at)
-        with ProgressLine("% of the duration", left, lambda: slow.text) as shown:
-            if not continues:
-                shown.update(0.0, 100.0)
-            result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_begin=on_begin, on_step=on_step)
+        progress = HistoryProgress(scene, estimate.run, folder)
+        with progress:
+            result, _ = run_in_time(
+                prepared, checkpoint=folder.unfinished, on_begin=progress.on_begin, on_step=progress.on_step
+            )
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:
@@ -118,9 +152,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         _write(folder, scene, result, animation=arguments.animation)
         mean = asdict(result.average())
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT, mean=mean)
-        for line in history_answer(
-            scene, result, complete=failure is None
-        ):  # before a file that was not written is an error
+        # before a file that was not written is an error
+        for line in history_answer(scene, result, complete=failure is None):
             commands.say(line)
     if failure:
         raise failure
