@@ -4,7 +4,13 @@ import math
 from dataclasses import replace
 
 from ..models import ModelAnswer
-from ..models.shared import Prepared, largest_of, largest_sliding_friction
+from ..models.shared import (
+    Prepared,
+    beside_asperities,
+    largest_boundary_friction,
+    largest_of,
+    largest_sliding_friction,
+)
 from ..samples import is_measured
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .ranges import changes_by_ranges, with_input_ranges, with_inputs_not_given
@@ -82,7 +88,8 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear
     stress allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
     f = answer.numbers["coefficient"]
-    (sliding, by_rolling) = _largest_parts(scene, answer)
+    (largest, by_rolling) = _largest_parts(scene, answer)
+    sliding = _largest_where_shared(scene, answer, largest, uncertainty)
     most = max(sliding + by_rolling, abs(f))
     low, high = uncertainty.interval
     if not (high > most or low < -most):
@@ -114,6 +121,17 @@ def _largest_parts(scene: Scene, answer: ModelAnswer) -> tuple[float, float]:
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
     return sliding, answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
+
+
+def _largest_where_shared(scene: Scene, answer: ModelAnswer, largest: float, uncertainty: Uncertainty) -> float:
+    """Return the largest f [-] by sliding where asperities carry a part of the load, of the ``largest`` anywhere
+    (`lubfric.models.shared.beside_asperities`): at least what inputs and their ranges make of f, because they may change
+    that part."""
+    f = abs(answer.numbers["coefficient"])
+    by_inputs = [uncertainty.input_sides, uncertainty.not_given_sides]
+    relative = math.hypot(*(sides[1] for sides in by_inputs if math.isfinite(sides[1])))
+    shared = beside_asperities(largest, largest_boundary_friction(scene), answer.errors.largest_film_load_ratio)
+    return min(max(shared, f * (1.0 + relative)), largest)
 
 
 def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:

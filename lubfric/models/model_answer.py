@@ -111,6 +111,7 @@ class AnswerErrors:
     why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor
         0, and of some by name
     notes : remarks on these errors
+    largest_film_load_ratio : largest part of the load that the film may carry beside asperities, 1: any part
     area_needed : area that the sampling error needs, over that of the sample (`lubfric.estimate.Uncertainty`)
     """
 
@@ -123,6 +124,7 @@ class AnswerErrors:
     why_not_known: str = "not known"
     reasons: dict[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    largest_film_load_ratio: float = 1.0
     area_needed: float = 1.0
 
     @property

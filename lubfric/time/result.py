@@ -18,13 +18,14 @@ from ..estimate import (
     inputs_to_quote,
     methods_of,
 )
-from ..models.load_sharing import OF_ROLLING, OF_SHARE, STATIONARY_ROLLING_RATIO, least_error
+from ..models.load_sharing import OF_ROLLING, STATIONARY_ROLLING_RATIO, largest_film_load_ratio
 from ..models.shared import (
     GatheredTexts,
     Prepared,
     Sliding,
     Violation,
     below_and_above,
+    beside_asperities,
     gathered_on_curve,
     is_by_sliding,
     is_near_zero,
@@ -434,14 +435,10 @@ def _beside_asperities(largest: np.ndarray, boundary: np.ndarray, columns: dict[
     """Return the ``largest`` sliding part of f (nt,) where asperities carry a part of the load at no more than
     ``boundary`` = f_b (nt,): of the film's largest friction only the part counts that the film may carry by the
     model-form error of the asperity load ratio."""
-    share = columns["contact_load"] / columns["load"]
+    shares = columns["contact_load"] / columns["load"]
     ratios = columns["film_to_roughness_ratio"]
-    least = np.array([least_error(*each) for each in zip(ratios.tolist(), share.tolist())])
-    by_film = np.minimum(
-        1.0 - share + np.maximum(OF_SHARE * np.sqrt(share * np.clip(1.0 - share, 0.0, 1.0)), least), 1.0
-    )
-    is_shared = (share > 0) & np.isfinite(largest) & (largest > boundary)
-    return np.where(is_shared, boundary + (np.where(is_shared, largest, 0.0) - boundary) * by_film, largest)
+    of_film = [largest_film_load_ratio(*each) for each in zip(ratios.tolist(), shares.tolist())]
+    return np.array([beside_asperities(*each) for each in zip(largest.tolist(), boundary.tolist(), of_film)])
 
 
 def _largest_boundary_friction(scene: Scene, sliding: np.ndarray) -> np.ndarray:

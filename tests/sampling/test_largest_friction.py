@@ -12,8 +12,8 @@ from scipy.integrate import quad
 
 import lubfric
 from lubfric.estimate import interval, uncertainty_of
-from lubfric.models.load_sharing import PaperModel
-from lubfric.models.shared import largest_of_oil, largest_sliding_friction, peak_hertz_pressure
+from lubfric.models.load_sharing import PaperModel, largest_film_load_ratio
+from lubfric.models.shared import beside_asperities, largest_of_oil, largest_sliding_friction, peak_hertz_pressure
 
 PAPER = lubfric.load_scene("paper")
 
@@ -102,3 +102,35 @@ def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     if is_cut:
         (parts,) = re.findall(r"allow, ([0-9.e-]+) by sliding .* and ([0-9.e-]+) by rolling", known.text)
         assert sum(map(float, parts)) == pytest.approx(known.interval[1], rel=0.01)
+
+
+@pytest.mark.parametrize(("friction", "f_b"), [(0.08, 0.08), ([0.08, 0.07, 0.1], 0.1)])
+@pytest.mark.parametrize("speed", [0.002, 0.03])
+def test_at_a_steady_point_only_the_load_of_the_film_may_rub_more_than_f_b(friction, f_b, speed):
+    """An oil with a limit of 0.2 p: the asperities' part of the load has f_b, at the upper end of its range; the film
+    takes the rest, and what the model-form error 0.7 sqrt(s (1 - s)) of their part adds to it."""
+    scene = PAPER.with_(
+        bodies={"boundary_friction_coefficient": friction},
+        lubricant={"limiting_stress_coefficient": 0.2, "limiting_stress_offset": 1e4},
+    )
+    prepared = lubfric.prepare(scene)
+    solved = PaperModel().solve(prepared, prepared.sample, 1, speed).answer()
+    answer = replace(solved, errors=replace(solved.errors, numerical=50.0, model_error=(0.5, 50.0)))
+    share = solved.numbers["contact_load"] / scene.bodies.load
+    most = largest_sliding_friction(scene, speed)
+    assert 0.2 <= most < 0.21
+    ratio = min(solved.numbers["film_to_roughness_ratio"], 1.0)
+    film = min(1 - share + max(0.7 * math.sqrt(share * (1 - share)), 0.1 * ratio), 1.0)
+    rolling = abs(answer.most_rolling_ratio * solved.numbers["rolling_force"] / scene.bodies.load)
+    expected = f_b + (most - f_b) * film + rolling
+    high = uncertainty_of(prepared, answer).interval[1]
+    assert high == pytest.approx(expected, rel=1e-6)
+    assert (film < 0.3) == (speed == 0.002)
+
+
+@pytest.mark.parametrize(("share", "ratio", "film"), [(1.0, math.inf, 0.0), (0.0, 3.0, 1.0), (1.0, 0.5, 0.05)])
+def test_without_a_film_f_is_at_most_f_b_and_without_asperities_that_of_the_film(share, ratio, film):
+    assert largest_film_load_ratio(ratio, share) == pytest.approx(film)
+    assert beside_asperities(0.2, 0.1, film) == pytest.approx(0.1 + 0.1 * film)
+    assert beside_asperities(0.1, 0.1, film) == 0.1
+    assert beside_asperities(math.inf, 0.1, film) == math.inf

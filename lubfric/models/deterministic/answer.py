@@ -12,6 +12,7 @@ from ...errors import ConvergenceError
 from ...quantities import counted, depending_on
 from ...samples import Sample
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
+from ..load_sharing import largest_film_load_ratio
 from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
@@ -181,6 +182,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
                 *filter(None, [limit_in_words(by_limit), of_heat]),
                 *_end_of_cells_in_words(prepared.sample, levels.end_of_cells),
             ),
+            largest_film_load_ratio=_largest_film_load_ratio(prepared, numbers),
             area_needed=_area_needed(prepared, sampling_error, levels),
         ),
         not_given={key: by_input_not_given[key] for key in inputs_not_given(scene)},
@@ -372,6 +374,13 @@ def error_by_gap(given_off: float, *, rubbing: float, boundary: float, f: float)
         return 0.0
     on_asperities = abs(boundary) * (1 - rubbing) / rubbing if rubbing > 0 else 0.0
     return given_off * max(on_asperities, abs(f - boundary)) / abs(f)
+
+
+def _largest_film_load_ratio(prepared: Prepared, numbers: dict[str, float]) -> float:
+    """Return the largest part of the load [-] that the film carries: that of the load-sharing model, whose error is the
+    larger one (sample, cells and boundary film change the asperity load ratio of the deterministic model by less)."""
+    share = numbers["contact_load"] / prepared.scene.bodies.load
+    return largest_film_load_ratio(numbers["central_film"] / (prepared.surface.sq or math.nan), share)
 
 
 def _error_by_gap(results: Sequence[DeterministicResult]) -> float:

@@ -16,6 +16,7 @@ from .error_of_eq8 import (
     OF_ROLLING,
     OF_SHARE,
     STATIONARY_ROLLING_RATIO,
+    largest_film_load_ratio,
     least_error,
     load_sharing_error,
     load_sharing_error_parts,

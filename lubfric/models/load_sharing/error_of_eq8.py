@@ -125,3 +125,11 @@ def least_error(film_to_roughness_ratio: float, share: float) -> float:
     carry: it does not vanish with the load of the film. Where the ``share`` of the asperities vanishes, it does so with
     the error of that share."""
     return min(LEAST_WITH_FILM * min(film_to_roughness_ratio, 1.0), OF_SHARE * math.sqrt(share))
+
+
+def largest_film_load_ratio(film_to_roughness_ratio: float, share: float) -> float:
+    """Return the largest part of the load [-] that the film carries, by the model-form error of the ``share`` of the
+    asperities; ``film_to_roughness_ratio``: not finite where there is no film."""
+    of_share = OF_SHARE * math.sqrt(max(share * (1.0 - share), 0.0))
+    least = least_error(film_to_roughness_ratio, share) if math.isfinite(film_to_roughness_ratio) else 0.0
+    return min(1.0 - min(share, 1.0) + max(of_share, least), 1.0)

@@ -29,7 +29,7 @@ from ..shared import (
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .closure import gap_per_film, relative_gap_per_film
-from .error_of_eq8 import least_error, load_sharing_error, starved_error
+from .error_of_eq8 import largest_film_load_ratio, least_error, load_sharing_error, starved_error
 from .forces import Forces
 from .response import contact_length
 from .scatter import Scatter
@@ -122,6 +122,7 @@ def errors_of(balanced: BalancedSample) -> AnswerErrors:
         why_not_known=why,
         reasons=reasons,
         notes=(*notes, *unknown, *filter(None, [of_heat])),
+        largest_film_load_ratio=_largest_film_load_ratio(balanced, by_equation),
         area_needed=_area_needed(balanced),
     )
 
@@ -264,6 +265,16 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[Sides, tuple[str, ...]
     if scene.lubricant.inlet_film is not None and share > 0:
         sides = added_sides([sides, starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)])
     return _of_sliding(sides, forces.shear.rolling), ()
+
+
+def _largest_film_load_ratio(balanced: BalancedSample, by_equation: Sides) -> float:
+    """Return the `largest_film_load_ratio` of ``balanced``; 1 where its model-form error is not known."""
+    balance = balanced.corrected_balance
+    sq = balanced.prepared.surface.sq
+    if math.isnan(max(by_equation)) or not sq > 0:
+        return 1.0
+    ratio = math.inf if balance.film is None else balance.film.central_film / sq
+    return largest_film_load_ratio(ratio, balance.contact_load / balanced.prepared.scene.bodies.load)
 
 
 def moment_model_error(

@@ -67,7 +67,14 @@ from .heat import (
     surroundings,
     typical_heat,
 )
-from .largest_friction import Sliding, largest_of_each, largest_of_oil, largest_sliding_friction
+from .largest_friction import (
+    Sliding,
+    beside_asperities,
+    largest_boundary_friction,
+    largest_of_each,
+    largest_of_oil,
+    largest_sliding_friction,
+)
 from .memo import (
     AttenuatedSummitsKey,
     BalanceKey,

@@ -66,6 +66,19 @@ def largest_sliding_friction(scene: Scene, speed: float) -> float:
     return largest_of_each(scene, [Sliding(load=scene.bodies.load, radius=scene.bodies.radius, speed=sliding)])[0]
 
 
+def beside_asperities(largest: float, boundary_friction: float, film_load_ratio: float) -> float:
+    """Return the largest sliding part of f [-] where the film carries at most ``film_load_ratio`` of the load and
+    asperities carry the rest, at no more than f_b = ``boundary_friction``; ``largest``: that where it may be either."""
+    if not boundary_friction < largest < math.inf:
+        return largest
+    return boundary_friction + (largest - boundary_friction) * film_load_ratio
+
+
+def largest_boundary_friction(scene: Scene) -> float:
+    """Return f_b [-] of ``scene``, at the upper end of its range if it has one."""
+    return _at_largest_boundary_friction(scene).bodies.boundary_friction_coefficient
+
+
 def largest_of_each(scene: Scene, moments: list[Sliding]) -> list[float]:
     """Return the largest sliding part of f [-] of ``scene`` at each of the ``moments``, infinite where it does not
     slide.
