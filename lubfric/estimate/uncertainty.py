@@ -264,12 +264,23 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, as text; why there is no interval is in
         ``notes``."""
-        unknown = "" if math.isfinite(self.sampling) else f"; no 95 % interval{self._others_in_words}"
-        parts = self._in_words(self.budget_in_words["sampling"])
-        shown = with_interval(coefficient, *self.interval)
+        return f"{self._f_in_words(coefficient)}; {self._in_words(self.budget_in_words['sampling'])}{self._without_interval}"
+
+    def short_lines(self, coefficient: float) -> list[str]:
+        """Return the parts of `short`, a line each: f with its interval, and the budget."""
+        budget = self._in_words(self.budget_in_words["sampling"])
+        return [f"{self._f_in_words(coefficient)}{self._without_interval}", f"uncertainty budget: {budget}"]
+
+    @property
+    def _without_interval(self) -> str:
+        """That there is no interval, as text to be appended; "" where there is one."""
+        return "" if math.isfinite(self.sampling) else f"; no 95 % interval{self._others_in_words}"
+
+    def _f_in_words(self, coefficient: float) -> str:
+        """Return f with its 95 % interval as text."""
         if self.without_sampling_in_words:  # its digits are known, though no interval is
-            shown = beside_interval(coefficient, *self.interval_without_sampling)
-        return f"f = {shown}; {parts}{unknown}"
+            return f"f = {beside_interval(coefficient, *self.interval_without_sampling)}"
+        return f"f = {with_interval(coefficient, *self.interval)}"
 
     def _in_words(self, sampling_in_words: str) -> str:
         words = self.budget_in_words | {"sampling": sampling_in_words}

@@ -501,8 +501,8 @@ class RunFolder:
         **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run instead of
-        an earlier one; its record, which names the files, last as result.json. Then violated assumptions,
-        ``unusual_values`` and files are said, and what was saved for a resume is removed. ``repeated``: how the run is
+        an earlier one; its record, which names the files, last as result.json. Then ``unusual_values``, violated
+        assumptions and files are said, and what was saved for a resume is removed. ``repeated``: how the run is
         repeated, where not by the scene alone."""
         again = repeated or RepeatedRun(scene=prepared.scene)
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
@@ -522,7 +522,7 @@ class RunFolder:
             self.contents[RESULT] = _as_json(record)  # last: it appears when all files that it names are there
         if RESULT not in self.contents:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
-        self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
+        self.put(OUTPUTS, (*unusual_values, *record.get("validity", ())))
         if not self.failures:  # else what was saved is all that has everything
             if self.is_needed:
                 say(

@@ -48,6 +48,9 @@ WORTH = 8  # speeds from which a second process gains more than it costs; a choi
 
 MOST_GAPS = 3  # gaps of a traction curve that are named; a choice
 
+# What the lines of a point begin with, but for the first.
+INDENT = "    "
+
 # How a note begins that says why an error is not known.
 UNKNOWN = "sampling not known: "
 
@@ -348,7 +351,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         place, worst = max(noted, key=lambda p: -1.0 if p[1].is_near_zero else p[1].sampling)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
-        lines.append(f"uncertainty of f {at_value(place, unit, plural)}{more}: {'; '.join(worst.notes)}")
+        head = f"uncertainty of f {at_value(place, unit, plural)}{more}:"
+        lines.append(f"\n{INDENT}".join((head, *worst.notes)) if len(worst.notes) > 1 else f"{head} {worst.notes[0]}")
         if few and few != [place]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
             lines.append(f"few asperity contacts carry the load {where}, so these intervals may be too narrow")
@@ -420,6 +424,20 @@ def _say_operating_point(scene: Scene, requested: list[float], *, are_of_command
     say(f"{operating_point_not_solved(scene, requested)} The operating point of the report is the speed nearest to it.")
 
 
+def lines_of_point(point: FrictionResult) -> list[str]:
+    """Return what is said of a solved ``point``, a line each: f, the parts of its interval, what the interval does not
+    contain, power loss, loads and time."""
+    loads = in_words(point, ("contact_load", "film_load"))
+    words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
+    loss = with_interval(point.power_loss, *point.power_loss_interval, unit="W")
+    return [
+        *point.uncertainty.short_lines(point.coefficient),
+        *([point.not_in_interval] if point.not_in_interval else []),
+        f"power loss: P = {loss}{rolling_in_words(point)}",
+        f"loads: {words} (wall-clock time of the point {point.seconds:.2f} s)",
+    ]
+
+
 def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
     """Return what says how a point ended; ``place``: the template of its place on the curve; ``is_total_known``:
     whether the number of points is."""
@@ -430,13 +448,7 @@ def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
         if isinstance(outcome, Exception):
             say(f"{head}: {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}")
             return
-        loads = in_words(outcome, ("contact_load", "film_load"))
-        words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
-        known = outcome.uncertainty
-        omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
-        time_ = f"(wall-clock time of the point {outcome.seconds:.2f} s)"
-        rolling = rolling_in_words(outcome).replace(", of", " of", 1)
-        loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}{rolling}"
-        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}")
+        first, *others = lines_of_point(outcome)
+        say(f"\n{INDENT}".join((f"{head}: {first}", *others)))
 
     return on_point

@@ -250,6 +250,10 @@ CASES = [
 def test_an_interval_in_words(parts, interval, words):
     known = Uncertainty(**parts, interval=interval)
     assert known.short(0.05).endswith(words)
+    first, second = known.short_lines(0.05)
+    assert first.startswith("f = ") and "numerical" not in first and second.startswith("uncertainty budget: ")
+    assert ("no 95 % interval" in first) == ("no 95 % interval" in words)
+    assert second.partition(": ")[2] in known.short(0.05)
     if math.isnan(known.model):
         assert "model-form not known (not included)" in known.text
 
