@@ -394,7 +394,7 @@ def test_info_says_what_a_strip_takes_if_its_cells_have_to_be_shorter():
     )
     may_be = describe_scene(scene)
     assert "if the error of its cells requires shorter cells" in may_be
-    for numerics in {"grid": "given"}, {"model_tolerance": 0.3}:
+    for numerics in {"grid": "given"}, {"model_tolerance": 0.09}:
         other = describe_scene(scene.with_(numerics=numerics))
         assert "strip of moving roughness" in other and "requires shorter" not in other
 

@@ -422,6 +422,16 @@ def test_the_plan_of_a_study_names_the_model_that_answers(model, words):
     assert result.decision.model == model
 
 
+@pytest.mark.parametrize("tolerance, speed", [(0.3, 0.03), (0.3, 0.3), (0.05, 0.3)])
+def test_the_plan_names_the_model_whose_error_is_within_the_tolerance(tolerance, speed):
+    """Where asperities carry load, load sharing does not answer, however wide the tolerance."""
+    scene = SCENE.with_(numerics={"model": "auto", "model_tolerance": tolerance})
+    answering = lubfric.friction(scene, speed).decision.model
+    title = {"paper": "load-sharing model", "quick": "quick model"}[answering]
+    assert f"model    {title} (numerics" in lubfric.plan_study(scene, {}, [speed]).explain()
+    assert answering == ("quick" if speed == 0.03 else "paper")
+
+
 def test_records_that_do_not_count_are_one_warning(tmp_path):
     """And they are solved again."""
     lubfric.study(SCENE, {"bodies.load": [3.0, 4.0, 5.0]}, [0.3], store=tmp_path)
