@@ -40,15 +40,28 @@ def point_budget(point: FrictionResult, place: str) -> str:
     return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels, is_cut=bool(known.cut))
 
 
+def budget_of_mean(result: TransientResult) -> tuple[dict[str, float], dict[str, str]]:
+    """Return the parts of the uncertainty budget of the mean friction coefficient of a run in time, relative to it, and
+    the same as text, by the names of `lubfric.estimate.PARTS`; both empty where there is no mean."""
+    sides = result.average().budget if result.time.size > 1 else {}
+    values = {name: max(below, above) for name, (below, above) in sides.items()}
+    if values.get("input") == 0.0:  # no range is in the interval, whether or not inputs have one
+        del values["input"]
+    return values, {name: percent_of_sides(sides[name], largest) for name, largest in values.items()}
+
+
+def budget_of_mean_in_words(result: TransientResult) -> list[str]:
+    """Return the `budget_of_mean` in a line; none where there is no mean."""
+    _, words = budget_of_mean(result)
+    parts = ", ".join(f"{name} {text}" for name, text in words.items())
+    return [f"Uncertainty budget of the mean: {parts}."] if parts else []
+
+
 def history_budget(result: TransientResult) -> str:
     """Return the uncertainty budget of the mean friction coefficient of a run in time."""
-    sides = result.average().budget if result.time.size > 1 else {}
-    if not sides:
+    values, words = budget_of_mean(result)
+    if not values:
         return ""
-    values = {name: max(below, above) for name, (below, above) in sides.items()}
-    if values["input"] == 0.0:  # no range is in the interval, whether or not inputs have one
-        del values["input"]
-    words = {name: percent_of_sides(sides[name], largest) for name, largest in values.items()}
     largest = max(values, key=lambda name: values[name] if math.isfinite(values[name]) else 0.0)
     labels = BUDGET | {"input": f"input (range of the {COLUMNS[BOUNDARY_FRICTION_KEY].label})"}
     advice = f"; give a measured {BOUNDARY_FRICTION_KEY} to reduce it" if largest == "input" else ""

@@ -496,12 +496,12 @@ class RunFolder:
         result: Any,
         units: dict[str, Quantity],
         law: Law | str = "",
-        unusual_values: Iterable[str] = (),
+        lines: Iterable[str] = (),
         repeated: RepeatedRun | None = None,
         **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run instead of
-        an earlier one; its record, which names the files, last as result.json. Then ``unusual_values``, violated
+        an earlier one; its record, which names the files, last as result.json. Then ``lines``, violated
         assumptions and files are said, and what was saved for a resume is removed. ``repeated``: how the run is
         repeated, where not by the scene alone."""
         again = repeated or RepeatedRun(scene=prepared.scene)
@@ -522,7 +522,7 @@ class RunFolder:
             self.contents[RESULT] = _as_json(record)  # last: it appears when all files that it names are there
         if RESULT not in self.contents:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
-        self.put(OUTPUTS, (*unusual_values, *record.get("validity", ())))
+        self.put(OUTPUTS, (*lines, *record.get("validity", ())))
         if not self.failures:  # else what was saved is all that has everything
             if self.is_needed:
                 say(

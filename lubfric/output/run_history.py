@@ -16,9 +16,10 @@ from ..scene import Scene, given_tables
 from ..studies import in_words
 from ..time import RunEstimate, TransientResult, fastest_of_run, in_motion, raise_if_failed, run_in_time
 from . import commands
+from .budget_bars import budget_of_mean_in_words
 from .describe import FILES_SECONDS
 from .fields import npz_bytes
-from .history_answer import history_answer
+from .history_answer import history_answer, history_notes
 from .pictures import animate, plot_history
 from .progress import ProgressLine
 from .run_files import names_of_run
@@ -151,12 +152,21 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
         mean = asdict(result.average())
-        folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT, mean=mean)
-        # before a file that was not written is an error
-        for line in history_answer(scene, result, complete=failure is None):
-            commands.say(line)
+        lines: list[str] = []
+        with folder.reporting("the answer was not reported"):
+            lines = _answer_lines(scene, result, complete=failure is None)
+        given = given_tables(arguments.scene)
+        folder.complete(prepared, estimate, given, result, OF_MOMENT, lines=lines, mean=mean)
     if failure:
         raise failure
+
+
+def _answer_lines(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
+    """Return the answer of a run, the parts of its interval and what narrows it, a line each."""
+    answer = history_answer(scene, result, complete=complete)
+    if result.time.size < 2:
+        return answer
+    return [*answer, *budget_of_mean_in_words(result), *history_notes(scene, result)]
 
 
 def _time_left(scene: Scene, run: RunEstimate) -> TimeLeft:

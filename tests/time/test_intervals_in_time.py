@@ -416,6 +416,9 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
         f = [row["coefficient [-]"] for row in csv.DictReader(file)]
     assert [i for i, cell in enumerate(f) if not cell] == [0, 10, 20] and all(map(float, filter(None, f)))
     (stated,) = re.findall(r"The largest f is (\S+)", said)
+    order = ("The mean friction", "Uncertainty budget of the mean: numerical ", "answers at all times.", "wrote ")
+    places = [said.index(words) for words in order]
+    assert places == sorted(places)
     assert abs(float(stated)) == pytest.approx(max(abs(float(cell)) for cell in f if cell), rel=0.01)
     (last,) = (line for line in said.splitlines() if "t = 0.01 of 0.01 s" in line)
     assert "t = 0.01 of 0.01 s, at rest: no f, F_C = " in last and "U = " not in last
