@@ -24,8 +24,8 @@ def range_in_a_line(key: str, values: np.ndarray) -> str:
         unit = unit_of_largest(values.tolist(), COLUMNS[key].unit)
         numbers = dict.fromkeys(f"{converted(value, COLUMNS[key].unit, unit):.4g}" for value in values.tolist())
         return f"{label}: {', '.join(numbers)} {printed(unit)}"
-    shown = dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values[:6])
-    return f"{label}: {', '.join(shown)}{', ...' if values.size > 6 else ''}"
+    shown = list(dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values))
+    return f"{label}: {', '.join(shown[:6])}{', ...' if len(shown) > 6 else ''}"
 
 
 def common_inputs(result: StudyResult | StudyPlan) -> str:

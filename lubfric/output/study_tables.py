@@ -31,12 +31,11 @@ ANSWERED = ("coefficient", "power_loss")
 # Numbers of the table of a report, each in a unit of people, with the ends of their interval where they have one.
 REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     **INTERVAL_COLUMNS,
-    "full_load_film": None,
     "lambda_ratio": None,
-    "central_film": None,
-    "min_film": None,
     ASPERITY_LOAD_RATIO: None,
 }
+# Films of the folded table of details: in the other one they would make it wider than a window. A choice.
+FOLDED_FILMS = ("full_load_film", "central_film", "min_film")
 # Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their
 # interval.
 UNBROKEN = "white-space: nowrap"
@@ -200,13 +199,14 @@ def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
 
 
 def folded_details(result: StudyResult, rows: int) -> str:
-    """Return a folded table of the points with what follows from other columns, the peak Hertz pressure, temperatures,
-    and the parts of the error of f."""
+    """Return a folded table of the points with what follows from other columns, films, the peak Hertz pressure,
+    temperatures, and the parts of the error of f."""
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = scene_of_each(result)
     constant = _constant(result, len(scenes))
     derived = [_column(result, columns, name, picked) for name in _derived(result) if name not in constant]
+    derived += [_column(result, columns, name, picked) for name in FOLDED_FILMS]
     parts = parts_of_error(columns, picked, [scenes[row] for row in picked])
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
     body = []
@@ -224,7 +224,7 @@ def folded_details(result: StudyResult, rows: int) -> str:
         "film temperature rise [K]",
     ]
     heads += parts
-    about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
+    about = "Films, pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
     notes = [RISE_NOTE] if np.isfinite(rises[1]).any() else []
     notes += why_no_rises(result)
     note = f"<p>{escape(' '.join(notes))}</p>" if notes else ""

@@ -301,9 +301,9 @@ def _time_in_words(left: Left, workers: int, what: str) -> Iterator[str]:
 
 
 def _range(key: str, values: tuple[Any, ...]) -> str:
-    """Return the values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
-    if len(values) > LISTED:
-        ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
-        return " to ".join(dict.fromkeys(_range(key, (end,)) for end in ends))
-    words = dict.fromkeys(worded_value(key, value) if isinstance(value, float) else str(value) for value in values)
-    return ", ".join(shorten(text, 50, placeholder="...") for text in words)
+    """Return the values of a key, each once: all if they are few, else the smallest and the largest, or first and last."""
+    if len(values) > LISTED and all(isinstance(value, Real) for value in values):
+        return " to ".join(dict.fromkeys(_range(key, (end,)) for end in (min(values), max(values))))
+    words = list(dict.fromkeys(worded_value(key, v) if isinstance(v, float) else str(v) for v in values))
+    shown = words if len(words) <= LISTED else (words[0], "...", words[-1])
+    return ", ".join(shorten(text, 50, placeholder="...") for text in shown)

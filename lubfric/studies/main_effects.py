@@ -107,7 +107,7 @@ def why_not_separated(result: Any, quantity: str = "coefficient") -> str:
         return ""
     scattered = [key for key in keys if is_scattered(result, key)]
     if count < POINTS_FOR_EACH * len(scattered):
-        return f"{count} points are too few for {len(scattered)} inputs"
+        return f"{count} points are too few for {len(keys)} inputs"
     x = {key: _coordinate(columns[key][known]) for key in keys}
     together = np.abs(np.corrcoef([rankdata(values) for values in x.values()])) - np.eye(len(keys))
     (one, other) = (keys[place] for place in np.unravel_index(int(together.argmax()), together.shape))

@@ -11,7 +11,7 @@ import lubfric
 from lubfric.output import films_in_words, main
 from lubfric.output.status import status_of_study
 from lubfric.output.study_answer import answer_lines
-from lubfric.output.study_inputs import common_inputs
+from lubfric.output.study_inputs import common_inputs, range_in_a_line
 from lubfric.output.study_report import study_page
 from lubfric.output.study_tables import why_no_rises
 from lubfric.studies import StudyResult, load_study, plot_points
@@ -156,6 +156,13 @@ def test_a_column_of_names_is_that_of_a_table_in_python(tmp_path):
         lubfric.plan_study(oil, points=table).keys for table in (tmp_path / "t.csv", columns | {"speed": [0.1] * 2})
     ]
     assert keys[0] == keys[1]
+    repeated = {
+        "lubricant.grade": ["ISO VG 68", "ISO VG 32", "ISO VG 32", "ISO VG 32", "ISO VG 68"],
+        "speed": [0.1] * 5,
+    }
+    plan = lubfric.plan_study(oil, points=repeated)
+    assert "5 x lubricant.grade ISO VG 68, ISO VG 32; speed" in plan.explain()
+    assert range_in_a_line("lubricant.grade", np.array([*"abbbbba"])) == "grade: a, b"
     (tmp_path / "t.csv").write_text("load [N],speed [m/s]\nheavy,0.1\n")
     with pytest.raises(lubfric.InputError, match="'heavy' is not a number"):
         lubfric.plan_study(oil, points=tmp_path / "t.csv")

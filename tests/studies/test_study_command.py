@@ -125,7 +125,7 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
         in line
     )
     page = study_report.study_page(result, {}, []).decode()
-    assert "Pressure, temperature, and parts of the error" in page
+    assert "Films, pressure, temperature, and parts of the error" in page
     largest = int(np.nanargmax(np.abs(result["coefficient"]))) + 1
     assert f"<h3>Effects not modelled, at point {largest}, of the largest f</h3>" in page
     unknown = result.columns | {"film_temperature_rise": np.full(result.status.shape, np.nan)}
@@ -405,17 +405,22 @@ def test_points_that_miss_the_numerical_tolerance_are_named_on_the_console():
     assert "At 20 of 40 points: " in line and line.endswith("column validity of study.csv has all of them.")
 
 
-def test_the_table_of_a_report_has_the_films():
-    """In one unit each, with the lambda ratio beside them."""
+def test_the_tables_of_a_report_have_the_films():
+    """In one unit each: the lambda ratio in the first table, which fits a window, and the films in the folded one."""
     result = numbered({"bodies.load": [1.0, 2.0]}, lambda scene: 0.1)
     films = {"central_film": [2e-7, 3e-7], "min_film": [1.1e-7, 1.2e-7], "lambda_ratio": [0.7, 0.8]}
     columns = {name: np.reshape(values, result.status.shape) for name, values in films.items()}
     page = study_report.study_page(replace(result, columns=result.columns | columns), {}, []).decode()
-    heads = re.findall(r"<th[^>]*>([^<]*)</th>", page)
-    rows = re.findall(r"<tr>(.*?)</tr>", page.split("central separation [nm]</th>")[1], re.DOTALL)
-    places = [heads.index(name) for name in ("central separation [nm]", "smallest film thickness [nm]", "lambda ratio")]
-    cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows[:2]]
-    assert [[row[place] for place in places] for row in cells] == [["200", "110", "0.7"], ["300", "120", "0.8"]]
+    first, folded = (table for table in re.findall(r"<table.*?</table>", page, re.DOTALL) if ">no.</th>" in table)
+    shown = {}
+    for text in first, folded:
+        heads = re.findall(r"<th[^>]*>([^<]*)</th>", text)
+        rows = re.findall(r"<tr>(.*?)</tr>", text, re.DOTALL)
+        cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in rows if "<td" in row]
+        shown |= dict(zip(heads, zip(*cells)))
+        assert ("lambda ratio" in heads) == (text is first)
+    assert shown["central separation [nm]"] == ("200", "300") and shown["lambda ratio"] == ("0.7", "0.8")
+    assert shown["smallest film thickness [nm]"] == ("110", "120")
 
 
 def with_columns(result, **columns):
