@@ -201,7 +201,7 @@ def plot_traction(
     figure, axes = _panels(panels, options)
     if "friction" in axes:
         top = axes["friction"]
-        _traction_over_ratio(top, c, options)
+        traction_over_ratio(top, c, options)
         _draw_measured(top, measured, is_signed=bool((ratio < 0).any()))
         if figures.OPERATING_POINT_MARK not in options.without:
             _mark_operating_point(top, ratio, ratio, c["coefficient"], operating_point)
@@ -232,16 +232,29 @@ def _panels(panels: list[str], options: PictureOptions) -> tuple[Figure, dict[st
     return figure, dict(zip(panels, shown))
 
 
-def _traction_over_ratio(axes: Axes, c: dict[str, np.ndarray], options: PictureOptions) -> None:
-    """Draw f, its interval and its parts over the slide-roll ratio, from the columns ``c`` by ascending ratio."""
-    gaps = _draw_gaps(axes, c)
+def traction_over_ratio(
+    axes: Axes,
+    columns: dict[str, np.ndarray],
+    options: PictureOptions,
+    *,
+    label: str = figures.FRICTION_COEFFICIENT,
+    color: str = figures.BLUE,
+    others: int = 0,
+) -> None:
+    """Draw f, its interval and its parts over the slide-roll ratio, from the ``columns`` of a traction curve by
+    ascending ratio; f as ``label`` in the ``color``, which the interval has too. ``others``: as of
+    `lubfric.studies.interval_band`."""
+    c = columns
+    gaps = _draw_gaps(axes, c, color)
     numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
-    broken = type(c)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
-    interval_band(axes, broken["ratio"], broken, has_parts=options.has_parts, as_bars=options.has_bars)
+    broken = {name: np.insert(column.astype(float), gaps, np.nan) for name, column in numbers.items()}
+    shown_as: dict[str, Any] = {"has_parts": options.has_parts, "as_bars": options.has_bars}
+    interval_band(axes, broken["ratio"], broken, color=color, others=others, **shown_as)
     load = c["contact_load"] + c["film_load"]
     shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
     parts = [np.insert(part, gaps, np.nan) for part in shown]
-    figures.friction_lines(axes, broken["ratio"], parts, without=options.without, marker="o", ms=4)
+    style: dict[str, Any] = {"label": label, "color": color, "marker": "o", "ms": 4}
+    figures.friction_lines(axes, broken["ratio"], parts, without=options.without, **style)
     axes.set_ylabel(figures.FRICTION_LABEL)
 
 
@@ -254,9 +267,10 @@ def _temperatures(axes: Axes, ratio: np.ndarray, c: dict[str, np.ndarray]) -> No
     figures.key_above(axes)
 
 
-def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray]) -> list[int]:
-    """Dot the line of f where its points do not show it between them, and bar the intervals of points that no line
-    joins. ``columns``: of a traction curve, by ascending ratio. Returns the places before which lines and bands end."""
+def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray], color: str) -> list[int]:
+    """Dot the line of f, of the ``color``, where its points do not show it between them, and bar the intervals of
+    points that no line joins. ``columns``: of a traction curve, by ascending ratio. Returns the places before which
+    lines and bands end."""
     ratio = columns["ratio"]
     f = columns["coefficient"]
     unknown = np.full(ratio.shape, np.nan)
@@ -268,12 +282,12 @@ def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray]) -> list[int]:
         place = int(np.argmin(np.abs(slips - gap.low)))
         other = int(np.argmin(np.abs(slips - gap.high)))
         pair = sorted((place, other))
-        axes.plot(ratio[pair], f[pair], ":", color=figures.BLUE, lw=1.0, label=label)
+        axes.plot(ratio[pair], f[pair], ":", color=color, lw=1.0, label=label)
         ends.append(pair[1])
         label = None
     pieces = np.split(np.arange(ratio.size), sorted(ends))
     lone = [int(piece[0]) for piece in pieces if piece.size == 1 and ratio.size > 1]
-    axes.vlines(ratio[lone], low[lone], high[lone], color=figures.BLUE, alpha=0.4, lw=3)
+    axes.vlines(ratio[lone], low[lone], high[lone], color=color, alpha=0.4, lw=3)
     return sorted(ends)
 
 

@@ -1,8 +1,10 @@
-"""``lubfric plot``: the picture of a run again, or the Stribeck curves of several runs in one picture."""
+"""``lubfric plot``: the picture of a run again, or the Stribeck or traction curves of several runs in one picture."""
 
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,8 +15,10 @@ from .. import studies
 from .._base import figures, read_table, validate
 from ..errors import InputError
 from .commands import read_record
+from .curve_picture import drawable
 from .picture_options import PictureOptions
-from .plot_again import measured_of, picture_options, plot_again, write_picture
+from .pictures import traction_over_ratio
+from .plot_again import TABLES, measured_of, picture_options, plot_again, write_picture
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
@@ -25,8 +29,11 @@ HEIGHT_OF_CURVES = 4.0
 # Lines that are drawn of a curve alone: with those of several, none of them can be read.
 OF_ONE_CURVE = (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION)
 
-# Of the picture of several curves, without its ending.
-TOGETHER = "stribeck_together"
+# Of the picture of several curves, without its ending; {}: that of their table.
+TOGETHER = "{}_together"
+
+# Tables of curves that are drawn in one picture, without their endings, and what they are over.
+OVER_OF_CURVE = {"stribeck": "speed", "traction": "ratio"}
 
 # Options of ``lubfric plot`` that are for the picture of one run.
 OF_ONE_RUN = ("contact", "panels")
@@ -48,30 +55,49 @@ def plot(arguments: Namespace) -> None:
     if labels and len(labels) != len(arguments.folder):
         message = f"--labels has {len(labels)} names for {len(arguments.folder)} folders"
         raise InputError(message, recommendation="separate one for each folder by commas")
-    curves = [_curve(folder) for folder in arguments.folder]
+    kind = _kind(arguments.folder)
+    curves = [_curve(folder, kind) for folder in arguments.folder]
     names = [name for name, _ in curves]
     if len(set(names)) < len(names):
         names = [folder.resolve().name for folder in arguments.folder]
     draw = partial(
         plot_curves,
         curves=dict(zip(labels or names, (columns for _, columns in curves))),
-        options=picture_options(of_first, "stribeck"),
-        measured=measured_of(of_first, "stribeck"),
+        options=picture_options(of_first, kind),
+        measured=measured_of(of_first, kind),
     )
-    write_picture(of_first, TOGETHER, draw)
+    write_picture(of_first, TOGETHER.format(kind), draw)
 
 
-def _curve(folder: Path) -> tuple[str, Columns]:
-    """Return the name of the scene and the table of the Stribeck curve in a ``folder``."""
-    table = folder / "stribeck.csv"
-    if not table.is_file():
-        what = "has no Stribeck curve" if folder.is_dir() else "does not exist"
-        message = f"folder {validate.shown(str(folder))} {what}"
-        raise InputError(message, recommendation="give folders in which 'lubfric run' has written stribeck.csv")
+def _kind(folders: Sequence[Path]) -> str:
+    """Return of which of `OVER_OF_CURVE` each of the ``folders`` has a table. Raises `InputError` where there is none."""
+    for folder in folders:
+        if not folder.is_dir():
+            raise InputError(f"folder {validate.shown(str(folder))} does not exist")
+    for kind in OVER_OF_CURVE:
+        if all((folder / f"{kind}.csv").is_file() for folder in folders):
+            return kind
+    tables = (
+        f"{folder}: {next((TABLES[kind] for kind in OVER_OF_CURVE if (folder / f'{kind}.csv').is_file()), 'no curve')}"
+        for folder in folders
+    )
+    raise InputError(
+        f"the folders have no curves of one kind ({'; '.join(tables)})",
+        recommendation="give folders in which 'lubfric run' has written stribeck.csv, or traction.csv, in all of them",
+    )
+
+
+def _curve(folder: Path, kind: str) -> tuple[str, Columns]:
+    """Return the name of the scene, and those rows of the table ``kind`` of a ``folder`` that can be drawn, in the
+    order of what they are over."""
+    table = folder / f"{kind}.csv"
     columns = read_table(table)
-    if not (np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)).any():
+    rows = np.flatnonzero(drawable(columns))
+    if not rows.size:
         raise InputError(f"nothing to draw: no point in {table} moves and has an answer")
-    return read_record(folder)["scene"]["name"], columns
+    order = rows[np.argsort(columns[OVER_OF_CURVE[kind]][rows])]
+    chosen = type(columns)((name, column[order]) for name, column in columns.items())
+    return read_record(folder)["scene"]["name"], chosen
 
 
 @figures.styled
@@ -81,21 +107,27 @@ def plot_curves(
     measured: studies.Measured | None = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Draw friction over the speed of several ``curves``, by their names, with what was ``measured``, without its
-    parts."""
+    """Draw friction over the speed, or the slide-roll ratio, of several ``curves``, by their names, with what was
+    ``measured``, without its parts."""
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
-    for name, columns in curves.items():
-        studies.draw_curve(
-            axes,
-            columns,
-            name,
-            name,
-            interval="bars" if options.has_bars else "band",
-            without=(*OF_ONE_CURVE, *options.without),
-        )
+    shown = replace(options, without=(*OF_ONE_CURVE, *options.without), has_parts=False)
+    for place, (name, columns) in enumerate(curves.items()):
+        if "ratio" in columns:
+            color = figures.CURVE_COLOURS[place % len(figures.CURVE_COLOURS)]
+            label = figures.plain_words(name)
+            traction_over_ratio(axes, columns, shown, label=label, color=color, others=place)
+        else:
+            studies.draw_curve(
+                axes, columns, name, name, interval="bars" if options.has_bars else "band", without=shown.without
+            )
+    ratios = np.concatenate([columns.get("ratio", []) for columns in curves.values()])
+    if ratios.size:
+        axes.set_xlabel("slide-roll ratio (-)")
+        figures.log_if_wide(axes, "x", ratios)
+        figures.key_above(axes)
     if measured is not None:
-        measured.draw(axes)
+        measured.draw(axes, is_signed=bool((ratios < 0).any()))
         figures.key_above(axes)
     options.scale(axes, friction=axes)
     figures.plain_ticks(axes.xaxis)

@@ -160,7 +160,31 @@ def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkey
     ):
         assert main([*both, *more]) == 2 and words in " ".join(capsys.readouterr().err.split())
     (tmp_path / "b" / "stribeck.csv").unlink()
-    assert main(both) == 2 and "has no Stribeck curve" in " ".join(capsys.readouterr().err.split())
+    assert main(both) == 2 and "b: no curve" in " ".join(capsys.readouterr().err.split())
+
+
+def test_traction_curves_of_several_runs_are_drawn_in_one_picture(tmp_path, monkeypatch, capsys):
+    """Each with its colour, in the order of its ratios, and no Stribeck curve among them."""
+    saved = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, path: (saved.append(figure), path.write_bytes(b"")))
+    heads = "ratio [-],speed [m/s],coefficient [-],interval_low [-],interval_high [-]"
+    heads += ",contact_load [N],film_load [N],boundary_force [N],shear_force [N]"
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "result.json").write_text(f'{{"scene": {{"name": "{name}"}}, "points": []}}')
+        rows = [f"{s},1,{f},{0.9 * f},{1.1 * f},1,1,1,1" for s, f in ((0.2, 0.05), (0.1, 0.045), (0.3, 0.055))]
+        (tmp_path / name / "traction.csv").write_text("\n".join([heads, *rows]) + "\n")
+    both = ["plot", str(tmp_path / "a"), str(tmp_path / "b")]
+    assert main(both) == 0 and (tmp_path / "a" / "traction_together.png").is_file()
+    (drawn,) = saved[0].axes
+    for name in ("a", "b"):
+        np.testing.assert_allclose(lines(drawn)[name], [[0.1, 0.045], [0.2, 0.05], [0.3, 0.055]])
+    colours = {line.get_color() for line in drawn.lines if line.get_label() in ("a", "b")}
+    assert len(colours) == 2 and drawn.get_xlabel() == "slide-roll ratio (-)"
+    (tmp_path / "b" / "traction.csv").rename(tmp_path / "b" / "stribeck.csv")
+    assert main(both) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert "a: a traction curve; " in said and "b: a Stribeck curve" in said
 
 
 def test_a_lone_point_shows_the_shares_of_its_load():
