@@ -9,6 +9,12 @@ from .checks import peak_hertz_pressure
 from .unmodelled import GIVE_ALPHA, ExpectedEffect, UnmodelledEffect, at_most_in_words, ends_of_alpha
 from .violation import numbers_in_words
 
+# What the change is before there is a result. A convention.
+UPPER_BOUND = (
+    "an upper bound by closed forms over all asperity load ratios that the result may have, often many times the "
+    "change at the solved ratio, which the report states"
+)
+
 
 def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
     """Return in a sentence by how much the range of an estimated pressure-viscosity coefficient changes f at most at
@@ -52,7 +58,7 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
         return ""
     return (
         "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed "
-        f"forms, that of measured oils changes f by {at_most_in_words(largest)}; {GIVE_ALPHA}"
+        f"forms, that of measured oils changes f by {at_most_in_words(largest)}, {UPPER_BOUND}; {GIVE_ALPHA}"
     )
 
 
@@ -66,9 +72,8 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
     peak = worded(peak_hertz_pressure(scene), "Pa")
     return (
         f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
-        f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} it may "
-        f"change f by {at_most_in_words(largest)}, as long as the asperity load ratio is not known; the report states "
-        "what remains for the solved one. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a "
+        f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} it "
+        f"changes f by {at_most_in_words(largest)}: {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a "
         "measurement, to remove it, or [value, low, high] to have the change solved and in the interval"
     )
 
