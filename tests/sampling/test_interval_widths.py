@@ -15,6 +15,7 @@ from lubfric.models.load_sharing import (
     least_error,
     load_of_tail,
     load_sharing_error,
+    load_sharing_error_parts,
     moment_model_error,
     summit_radius,
     undetected_load,
@@ -345,3 +346,18 @@ def test_why_points_have_no_interval_is_said_once():
         line.startswith(begin)
         and "omit numerics.sampling, or give a contact.shape or a map that is longer along y" in line
     )
+
+
+@pytest.mark.parametrize("shear", [0.02, 0.002, -0.004, -0.03, -0.2])
+@pytest.mark.parametrize("boundary", [0.0, 0.01, 0.05])
+@pytest.mark.parametrize("share", [0.05, 0.4, 0.95])
+def test_the_sides_of_a_division_of_the_load_are_those_of_all_loads_that_it_allows(share, boundary, shear):
+    """Also where f is negative, by the rolling part of the film's force: f at all asperity load ratios within
+    0.7 sqrt(s (1 - s)) of s, each part of the load with its own friction coefficient."""
+    f = boundary + shear
+    reach = 0.7 * math.sqrt(share * (1 - share))
+    ratios = np.linspace(max(share - reach, 0.0), min(share + reach, 1.0), 11)
+    of_each = boundary / share * ratios + shear / (1 - share) * (1 - ratios)
+    sides = load_sharing_error_parts(1.0, share=share, boundary=boundary, shear=shear).of_share
+    below, above = sides.below_and_above(f)
+    assert (f - below, f + above) == pytest.approx((of_each.min(), of_each.max()), abs=1e-12)
