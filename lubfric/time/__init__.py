@@ -16,6 +16,7 @@ from .film_equations import Spring, StepEquations, outside, outside_shear
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import CreepingEnds, LineHistory, make_setting
 from .intervals_to_zero import IntervalsToZero, intervals_to_zero
+from .load_sharing_solver import ContactStep
 from .march import Memory, Progress, Step, advance, plan_of, report_of, steps
 from .model import Start, TimeModel
 from .registry import check_run, estimated_run, may_move_roughness, run_model_of

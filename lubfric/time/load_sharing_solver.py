@@ -55,16 +55,16 @@ class ContactStep:
             power=self.power,
         )
 
-    def followed_by(self, load: float, state: ContactState, touching_gap: float) -> ContactStep:
-        """Return the contact at another load, with the power that leads from this one to it, if it is meaningful."""
-        contact_step = replace(self, load=load, state=state, touching_gap=touching_gap)
-        log_load = math.log(load / self.load) if self.load else 0.0
-        if abs(log_load) < LEAST_LOG_LOAD or contact_step.approach == self.approach:
-            return contact_step
-        power = log_load / math.log(contact_step.approach / self.approach)
-        if power < 0.0:
-            return contact_step
-        return replace(contact_step, power=min(max(power, 0.5 * self.power, 1.0), 2.0 * self.power))
+    def power_from(self, other: ContactStep) -> float:
+        """Return the power with which the contact leads from ``other``, of the same step in time, to this one, if that
+        is meaningful, else the one that was taken. Both approaches count from the first touch of this one: that of the
+        other film is another one, and their difference is no compression."""
+        log_load = math.log(self.load / other.load) if other.load else 0.0
+        approach = max(self.touching_gap - other.state.mean_gap, LEAST_APPROACH * self.touching_gap)
+        log_approach = math.log(self.approach / approach)
+        if abs(log_load) < LEAST_LOG_LOAD or log_load * log_approach <= 0.0:
+            return self.power
+        return min(max(log_load / log_approach, 0.5 * self.power, 1.0), 2.0 * self.power)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,7 +176,8 @@ class LoadSharingSolver:
             state = contact.closed(film, tried, touch.state)
             if state is None:
                 break
-            touch = touch.followed_by(tried, state, separated.mean_gap)
+            solved = replace(touch, load=tried, state=state, touching_gap=separated.mean_gap)
+            touch = solved if touch is past else replace(solved, power=solved.power_from(touch))
             if load > 0.0 and abs(volume_residual(state)) <= self.tolerance:
                 return replace(solution, payload=touch)
             z = solution.z

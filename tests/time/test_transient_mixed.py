@@ -17,7 +17,7 @@ import lubfric
 from lubfric.models import prepare
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
-from lubfric.time import TransientLoadSharing
+from lubfric.time import ContactStep, TransientLoadSharing
 
 SCENE = paper_scene(
     numerics={"sampling": "patch"},
@@ -78,6 +78,38 @@ def test_the_last_asperity_leaves_and_meets_the_film_with_any_load():
     np.testing.assert_allclose(result.contact_load, expected, rtol=1e-9)
     touches = result.contact_load > 0.0
     assert 1 < touches.sum() < 8 and 0.0 < result.contact_load[touches].min() < load
+
+
+@pytest.mark.parametrize("power", [1.5, 4.0, 9.0])
+def test_the_power_of_a_contact_is_that_of_its_load_whatever_film_it_had_before(power):
+    """A load that grows with a power of the approach from first touch; under the last film the first touch was
+    elsewhere."""
+    contact = Spring(2e-7, 1e-8, 1.0)
+
+    def step(gap, touching_gap):
+        state = replace(contact.close(np.full(contact.x.size, gap), 0.0), mean_gap=gap)
+        load = ((2e-7 - gap) / 1e-7) ** power
+        return ContactStep(load=load, state=state, touching_gap=touching_gap, power=1.2 * power)
+
+    assert step(1.2e-7, 2e-7).power_from(step(1.1e-7, 2.6e-7)) == pytest.approx(power)
+
+
+def test_a_rough_contact_that_lifts_off_under_a_steep_load_takes_few_steps():
+    """A plateau-honed surface under 3 kN: the load of its asperities is steep in the film, and each film that is solved
+    has another shape. From rest to 0.3 m/s in 1.5 ms took twice as many steps, and ten times as long."""
+    steel_on_iron = {"e_prime": None, "material": ["steel", "cast iron"], "hardness": None, "hardness_hv": 250}
+    oil = {"nu40": 68e-6, "nu100": 11e-6, "temperature": 363.15, "eyring_stress": "mineral"}
+    scene = paper_scene(
+        bodies={"radius": 0.05, "width": 0.2513, "load": 3000.0, **steel_on_iron},
+        lubricant={"viscosity": None, "pressure_viscosity_coefficient": None, **oil},
+        surface={"sq": None, "sk": 1.5e-7, "spk": 1e-7, "svk": 4e-7, "correlation_length": 2e-5, "acf": "exponential"},
+        contact={"shape": (96, 24), "spacing": 5e-6},
+        numerics={"sampling": "patch", "grid": "given", "accept": True},
+        transient=lubfric.Transient(1.5e-3, 2, speed=Harmonic(amplitude=1.0, frequency=100 / 3)),
+    )
+    result = lubfric.transient(scene)
+    np.testing.assert_allclose(result.contact_load[1:] / 3000, [0.488, 0.0944], rtol=0.01)
+    assert result.report.evaluations < 100
 
 
 @pytest.mark.parametrize("geometry", ["cylinder", "flat"])
