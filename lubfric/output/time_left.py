@@ -10,9 +10,18 @@ from typing import Any
 from .._base.processor_time import processor_time
 from ..studies import in_words
 
-# Time for which a process is taken to do a second of work in a second [s]. A choice: less makes the first estimates
-# jump.
+# Time for which a process is taken to do a second of work in a second [s], until twice as much has passed. A choice:
+# less makes the first estimates jump.
 USUAL_SECONDS = 5.0
+
+# Processor time [s] that a process has spent at least, for the rate at which it does. A choice: it divides.
+LEAST_WORK = 1e-3
+
+# Time left below which no number is stated [s]. A choice.
+LEAST_STATED = 0.1
+
+# Points as estimated after which the measured ratio alone counts. A choice: fewer make the time left jump.
+POINTS_OF_PACE = 2.0
 
 # Time that a part still needs which takes longer than estimated, over the time that it has taken [-]. Four of five
 # estimates are within a factor of 3: if their logarithms are normal, the median is 0.8 of a part that has taken its
@@ -26,9 +35,10 @@ class TimeLeft:
 
     ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``:
     that solve them. What points take is the processor time of one process, whose ratio to the time that passes is
-    measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates,
-    with one more that takes what is estimated, corrects the estimates of the others; those that are being solved raise
-    it when they take more, and then need `LEFT_OF_LATE` of what they took, which raises it too.
+    measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates
+    corrects the estimates of the others; until `POINTS_OF_PACE` ended, one more counts that takes what is estimated.
+    Those that are being solved raise it when they take more, and then need `LEFT_OF_LATE` of what they took, which
+    raises it too.
     """
 
     def __init__(
@@ -92,12 +102,13 @@ class TimeLeft:
         """Return `seconds`; call it with the lock."""
         now = self._spent()
         solving = {point: now - begun for point, begun in self._begun.items()}
-        ratio = _ratio(self._taken + self._usual, self._estimated + self._usual)
+        usual = _weight_of_usual(self._estimated, self._usual)
+        ratio = _ratio(self._taken + usual, self._estimated + usual)
         estimated = self._estimated + sum(self.expected[point] for point in solving)
         in_all = [
             taken * (1.0 + LEFT_OF_LATE) if taken > self.expected[point] else taken for point, taken in solving.items()
         ]
-        slower = _ratio(self._taken + sum(in_all) + self._usual, estimated + self._usual)
+        slower = _ratio(self._taken + sum(in_all) + usual, estimated + usual)
         ratio = max(ratio, slower)
         undone = [
             LEFT_OF_LATE * taken if taken > ratio * self.expected[point] else ratio * self.expected[point] - taken
@@ -107,14 +118,22 @@ class TimeLeft:
         left = max((sum(undone) + waiting) / self.processes, *undone, 0.0)
         if self.processes > 1:
             return left
-        rate = (now - self._first_spent + USUAL_SECONDS) / (self._clock() - self._first_clock + USUAL_SECONDS)
-        return left / rate
+        passed = self._clock() - self._first_clock
+        usual = _weight_of_usual(passed, USUAL_SECONDS)
+        return left * (passed + usual) / max(now - self._first_spent + usual, LEAST_WORK)
 
     def in_words(self, more: float = 0.0) -> str:
         """Return the time left and ``more`` [s] as text to be appended; "" where nothing is left."""
         if not self.expected:
             return ""
-        return f", about {in_words(self.seconds + more)} left"
+        left = self.seconds + more
+        return f", about {in_words(left)} left" if left >= LEAST_STATED else f", less than {in_words(LEAST_STATED)} left"
+
+
+def _weight_of_usual(known: float, usual: float) -> float:
+    """Return how much [s] of a ``usual`` time, as estimated, counts beside a ``known`` one: all of it until as much is
+    known, none from `POINTS_OF_PACE` times as much."""
+    return min(max(POINTS_OF_PACE * usual - known, 0.0), usual)
 
 
 def _ratio(taken: float, estimated: float) -> float:

@@ -96,6 +96,25 @@ def test_longer_points_lengthen_the_others():
     assert list(left.expected) == ["b", "c", "d"]
 
 
+@pytest.mark.parametrize("times, rate", [(5.0, 1.0), (0.5, 1.0), (4.0, 0.3)])
+def test_the_time_left_does_not_grow_from_the_second_point_on_at_one_pace(times, rate):
+    """Points of two lengths take so many times their estimates, on a core that is shared: what is left is known."""
+    machine = Machine()
+    estimates = {name: (8.0 if number % 2 else 12.0) for number, name in enumerate("abcdefgh")}
+    left = machine.left(estimates)
+    remaining = sum(estimates.values()) * times / rate
+    for number, (name, seconds) in enumerate(estimates.items(), 1):
+        machine.run(seconds * times / rate, rate)
+        remaining -= seconds * times / rate
+        left.end(name)
+        if number >= 2:
+            assert left.seconds == pytest.approx(remaining)
+
+
+def test_a_time_left_that_no_one_waits_for_is_no_number():
+    assert Machine().left({"a": 2e-5}).in_words() == ", less than 0.1 s left"
+
+
 def test_a_point_that_is_known_takes_no_time_and_says_nothing_of_the_others():
     machine = Machine()
     left = machine.left(dict.fromkeys("abc", 10.0))
