@@ -127,7 +127,9 @@ class TimeLeft:
         if not self.expected:
             return ""
         left = self.seconds + more
-        return f", about {in_words(left)} left" if left >= LEAST_STATED else f", less than {in_words(LEAST_STATED)} left"
+        return (
+            f", about {in_words(left)} left" if left >= LEAST_STATED else f", less than {in_words(LEAST_STATED)} left"
+        )
 
 
 def _weight_of_usual(known: float, usual: float) -> float:

@@ -7,6 +7,7 @@ from .codec import classes_of, decode, encode, fits
 from .conditions import design_keys, operating_keys, points_are_designs, why_not_compared
 from .curve import CurveResult, columns_of_curve, csv_bytes
 from .curve_axes import draw_curve
+from .distributions import Normal
 from .explain import WITHIN_WORDS, estimated_study, explained, in_words
 from .fit import estimated_fit, explain_fit, fit, starts_in_words
 from .fit_checks import ResidualTests, chance_of, residual_tests

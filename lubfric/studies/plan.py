@@ -15,11 +15,13 @@ from numpy.typing import ArrayLike
 
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
+from ..quantities import KEYS
 from ..samples import is_measured, whole_maps
 from ..scene import Scene, builtin_scenes, load_scene, read_toml, speeds_of_range
 from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
+from .distributions import DEVIATION, Normal, unit_in
 from .explain import explain, warnings_of
-from .operating_points import POINT, operating_points
+from .operating_points import ENTRAINMENT, POINT, operating_points
 from .points import SPEED, scene_key
 from .store import digest
 from .study_file import study_toml
@@ -29,6 +31,7 @@ STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "s
 # Sections by which a scene is told from a study file.
 SCENE_SECTIONS = {"bodies", "lubricant", "motion", "surface"}
 SAMPLE_KEYS = ("count", "sampler", "seed")
+OF_SAMPLED = {"low", "mean"}  # of which a table of [sample] has one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -243,8 +246,8 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     - ``points``: a table of operating points: a text file relative to this one, or [[points]] with a table for each.
     - [vary]: keys with lists of values.
     - [[together]]: keys whose lists go together.
-    - [sample]: keys with {low, high, scale}, and count, sampler, seed; with "speed" among the keys its points are
-      operating points.
+    - [sample]: keys with {low, high, scale} or {mean, standard_deviation, low, high, scale}, and count, sampler, seed;
+      with "speed" among the keys its points are operating points.
 
     ``points``: a file of operating points, instead of those of the study file; then ``path`` may also be a scene.
 
@@ -360,12 +363,43 @@ def _sampled(table: Any, file: str) -> tuple[tuple[str, ...], list[Any]]:
     options: dict[str, Any] = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
         raise InputError(f"[sample] of {file} needs count, the number of points")
-    ranges = _flat(table, lambda value: not isinstance(value, dict) or "low" in value)
-    for key, given in ranges.items():
-        if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
-            raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
-        unit = "m/s" if key == SPEED else unit_of(key)
-        ends = {end: validate.in_plain(f"[sample] {key} {end}", given[end], unit) for end in ("low", "high")}
-        ranges[key] = given | ends
-    drawn = sample([Between(**given) for given in ranges.values()], **options)
+    ranges = _flat(table, lambda value: not isinstance(value, dict) or not OF_SAMPLED.isdisjoint(value))
+    if ENTRAINMENT in ranges:
+        _add(ranges, SPEED, ranges.pop(ENTRAINMENT))
+    distributions = {key: _distribution(key, given) for key, given in ranges.items()}
+    drawn = sample(distributions.values(), **options)
+    for (key, distribution), column in zip(distributions.items(), zip(*drawn)):
+        name = ENTRAINMENT if key == SPEED else key
+        if isinstance(distribution, Normal) and name in KEYS:
+            for value in (min(column), max(column)):
+                _check_drawn(key, name, value)
     return (*ranges,), drawn
+
+
+def _distribution(key: str, given: Any) -> Between | Normal:
+    """Return the range or the normal distribution that [sample] has ``given`` for a ``key``."""
+    is_normal = isinstance(given, dict) and "mean" in given
+    needed = {"mean", DEVIATION} if is_normal else {"low", "high"}
+    if not isinstance(given, dict) or not needed <= set(given) <= {*needed, "low", "high", "scale"}:
+        raise InputError(
+            f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}, "
+            f"or {{ mean = , {DEVIATION} = , low = , high = , scale = }}, a normal distribution"
+        )
+    unit = "m/s" if key == SPEED else unit_of(key)
+    ends = {end for end in given if end != "scale"}
+    numbers = given | {end: validate.in_plain(f"[sample] {key} {end}", given[end], unit) for end in ends}
+    if not is_normal:
+        return Between(**numbers)
+    if isinstance(given[DEVIATION], str):
+        numbers[DEVIATION] -= validate.in_plain(key, f"0 {unit_in(given[DEVIATION])}", unit)
+    return Normal(**numbers)
+
+
+def _check_drawn(key: str, name: str, value: float) -> None:
+    """Raise `InputError` where a ``value`` that was drawn is none that the key ``name``, ``key`` in [sample], can
+    have."""
+    try:
+        validate.of_key(name, value)
+    except InputError as error:
+        ways = "give low and high in [sample], the limits of the normal distribution, or scale = 'log'"
+        raise InputError(f"[sample] {key}: {error}", recommendation=ways) from None

@@ -14,6 +14,7 @@ from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import SOURCES, Roughness, Scene, other_convention, short_keys, typical
 from ..units import check_all_have_units, in_si, without_unit
+from .distributions import Normal
 
 SAMPLERS = ("sobol", "random")
 RANGE_SCALES = ("linear", "log")
@@ -126,7 +127,7 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
 
     Parameters
     ----------
-    ranges : a list of `Between`, one for each key
+    ranges : a list of `Between` or `Normal`, one for each key
     count : number of points; a power of two for "sobol"
     sampler : "sobol", a scrambled Sobol sequence (`scipy.stats.qmc.Sobol`), which fills the box evenly; or "random",
         independent points
@@ -143,8 +144,9 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
     from scipy.stats import qmc
 
     parts = list(ranges) if isinstance(ranges, Iterable) else []
-    if not parts or not all(isinstance(part, Between) for part in parts):
-        raise InputError(f"ranges = {validate.shown(ranges)}; allowed: a list of lubfric.Between(low, high)")
+    if not parts or not all(isinstance(part, (Between, Normal)) for part in parts):
+        ways = "a list of lubfric.Between(low, high) or lubfric.studies.Normal"
+        raise InputError(f"ranges = {validate.shown(ranges)}; allowed: {ways}")
     validate.choice("sampler", sampler, SAMPLERS)
     count = validate.integer("count", count, minimum=1, maximum=MOST_COMBINATIONS)
     seed = validate.integer("seed", seed, minimum=0)

@@ -1,6 +1,7 @@
 """Studies: every point is what friction gives, on any executor and after any kill; lost workers, failures, tables."""
 
 import csv
+import math
 import os
 import signal
 import time
@@ -287,6 +288,44 @@ def test_samples_fill_their_ranges():
     spread = np.array(lubfric.sample(ranges, 4000, "random", seed=1))
     assert np.log10(spread[:, 1]).mean() == pytest.approx(-1.0, abs=0.05)
     assert spread[:, 0].mean() == pytest.approx(5.5, abs=0.2)
+
+
+def test_normal_samples_have_their_moments_and_no_correlation():
+    """Of the value, also where its logarithm is normal; between limits those of the normal distribution cut off there,
+    sd φ(0)/(Φ(1) - Φ(0)) (1 - exp(-1/2)) above the mean."""
+    ranges = [
+        lubfric.studies.Normal(mean=5.0, standard_deviation=0.8),
+        lubfric.studies.Normal(mean="30 mm/s", standard_deviation="15 mm/s", scale="log"),
+        lubfric.studies.Normal(mean=5.0, standard_deviation=0.8, low=5.0, high=5.8),
+    ]
+    drawn = lubfric.sample(ranges, 2**12, seed=2)
+    assert drawn == lubfric.sample(ranges, 2**12, seed=2) != lubfric.sample(ranges, 2**12, seed=3)
+    values = np.array([(load, float(speed.removesuffix(" m/s")), cut) for load, speed, cut in drawn])
+    assert values.mean(axis=0)[:2] == pytest.approx([5.0, 0.03], rel=1e-3)
+    assert values.std(axis=0)[:2] == pytest.approx([0.8, 0.015], rel=0.01)
+    assert np.log(values[:, 1]).std() == pytest.approx(math.sqrt(math.log(1.25)), rel=0.01)
+    assert np.corrcoef(values.T) == pytest.approx(np.eye(3), abs=0.01)
+    above = 0.8 * (1 - math.exp(-0.5)) / math.sqrt(2 * math.pi) / (0.5 * math.erf(math.sqrt(0.5)))
+    assert values[:, 2].mean() == pytest.approx(5.0 + above, rel=1e-4)
+    assert 5.0 <= values[:, 2].min() and values[:, 2].max() <= 5.8
+    assert abs(np.corrcoef(np.array(lubfric.sample(ranges[:1] * 2, 4096, "random")).T)[0, 1]) < 0.05
+    assert lubfric.studies.Normal(mean="60 °C", standard_deviation="5 °C") == lubfric.studies.Normal(
+        mean="333.15 K", standard_deviation="5 K"
+    )
+
+
+@pytest.mark.parametrize(
+    "values, words",
+    [
+        ({"mean": 1.0, "standard_deviation": 0.0}, "standard_deviation = 0"),
+        ({"mean": -1.0, "standard_deviation": 1.0, "scale": "log"}, "mean = -1"),
+        ({"mean": 1.0, "standard_deviation": 0.1, "low": 2.0}, "contain 0 % of the normal"),
+        ({"mean": "1 N", "standard_deviation": "1 m"}, "convert to N and m"),
+    ],
+)
+def test_what_is_no_normal_distribution_is_refused(values, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.studies.Normal(**values)
 
 
 @pytest.mark.parametrize(

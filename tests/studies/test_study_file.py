@@ -71,6 +71,33 @@ def test_a_sample_with_speeds_has_operating_points(tmp_path):
         plan_study(PAPER, {"speed": [0.1]})
 
 
+def test_normal_values_and_entrainment_speeds_are_sampled(tmp_path):
+    """As `lubfric.sample` draws them; a deviation of temperatures is a difference. Values that a key cannot have are
+    refused before any point is solved."""
+    scene = PAPER.with_(lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 60})
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    head = 'scene = "scene.toml"\n[sample]\ncount = 64\nseed = 3\n'
+    load = "bodies.load = { mean = 5.0, standard_deviation = 2.0"
+    others = (
+        'motion.entrainment_speed = { low = "10 mm/s", high = "1 m/s", scale = "log" }\n'
+        'lubricant.temperature_celsius = { mean = "60 °C", standard_deviation = "4 K" }\n'
+    )
+    (tmp_path / "study.toml").write_text(head + load + ", low = 1.0 }\n" + others, encoding="utf-8")
+    plan = load_study(tmp_path / "study.toml")
+    ranges = {
+        "bodies.load": lubfric.studies.Normal(mean=5.0, standard_deviation=2.0, low=1.0),
+        "lubricant.temperature_celsius": lubfric.studies.Normal(mean=60.0, standard_deviation=4.0),
+        "speed": lubfric.Between(0.01, 1.0, "log"),
+    }
+    drawn = dict(zip(ranges, zip(*lubfric.sample(ranges.values(), 64, seed=3))))
+    assert plan.point_speeds == drawn["speed"]
+    for key in ("bodies.load", "lubricant.temperature_celsius"):
+        np.testing.assert_allclose(plan.coords[key][1], drawn[key])
+    (tmp_path / "study.toml").write_text(head + load.replace("2.0", "4.0") + " }\n", encoding="utf-8")
+    with pytest.raises(lubfric.InputError, match=r"\[sample\] bodies.load: .*give low and high in \[sample\]"):
+        load_study(tmp_path / "study.toml")
+
+
 def test_a_built_in_scene_is_not_sought_as_a_file_of_a_study():
     with pytest.raises(lubfric.InputError, match=r"^paper is a scene, not a study.*--points"):
         load_study("paper")
