@@ -194,6 +194,11 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         names = [name.rpartition(".")[2] for name in self.inputs_in_interval]
         return f"input ({', '.join(names)})" if names else "input"
 
+    def part_in_words(self, name: str) -> str:
+        """Return what the part ``name`` of the `budget` is called as text: with the inputs that it is by."""
+        in_words = PARTS[name].name_in_words
+        return name if in_words is None else in_words(self)
+
     @property
     def is_near_zero(self) -> bool:
         """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to
@@ -216,7 +221,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     def largest_part_in_words(self) -> str:
         """The `largest_part` without the words that introduce it."""
         name, more = self.largest_part_and_advice
-        return f"{name} {self.budget_in_words[name]}{more}" if name else ""
+        return f"{self.part_in_words(name)} {self.budget_in_words[name]}{more}" if name else ""
 
     @property
     def largest_part_and_advice(self) -> tuple[str, str]:
@@ -289,9 +294,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
             value = getattr(self, part.quantity)
             if value == 0 and not part.is_stated_if_zero:
                 continue
-            name_in_words = name if part.name_in_words is None else part.name_in_words(self)
             note = part.note_if_unknown if math.isnan(value) else ""
-            stated.append(f"{name_in_words} {words[name]}{note}")
+            stated.append(f"{self.part_in_words(name)} {words[name]}{note}")
         of_what = "errors of f itself, which is near 0: " if self.is_near_zero else ""
         return "; ".join((f"{of_what}{', '.join(stated)}", *self.cut))
 

@@ -10,6 +10,7 @@ from .page import FRAME, framed
 from .picture_options import PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction
 from .progress import ProgressLine
+from .rolling_part import negative_in_words
 from .status import orders_of_magnitude
 from .swept_values import in_percent, parse_ratios, parse_speeds
 from .time_left import TimeLeft

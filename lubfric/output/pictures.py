@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,6 +51,7 @@ BEARING_WIDTH = 4.0  # inch: of a bearing curve
 BESIDE_HEIGHTS = (2.6, 4.5)  # inch: of a map and a bearing curve beside each other
 SURFACE_PAD = 0.05  # inch around a map and its bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
+LETTERS_OF_INCH = 13.0  # of the text below a curve, in an inch of its width
 
 
 @figures.styled
@@ -336,7 +338,8 @@ def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
         for what, n in counts.items()
     )
     head = NOT_FULFILLED if len(violations) > 1 else NOT_FULFILLED_HERE
-    figure.supxlabel(f"{head}: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
+    text = fill(f"{head}: {'; '.join(named)}", int(LETTERS_OF_INCH * figure.get_figwidth()))
+    figure.supxlabel(text, fontsize="small", color=figures.GREY)
 
 
 @figures.styled

@@ -13,6 +13,12 @@ TABLED_ROLLING_PART = 0.1
 # Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
 SMALL_ROLLING_PART = 0.01
 
+# What a rolling part below 0 is.
+NEGATIVE_ROLLING_PART = (
+    "A rolling resistance below 0 is that of one sample of the surface: asperity contacts of roughness at rest add a part "
+    "of either sign, which is 0 on average."
+)
+
 
 def rolling_part(rolling_resistance: FloatArray | float, speed: FloatArray | float) -> FloatArray:
     """Return the part of the power loss [W] that is rolling resistance, at points with the ``rolling_resistance`` [N]
@@ -29,6 +35,12 @@ def without_small(texts: list[str], rolling: FloatArray, power_loss: FloatArray)
     """Return the ``texts`` of cells of the ``rolling`` part, (n,); "< 1 %" where it is less of the ``power_loss``."""
     are_small = np.abs(rolling) < SMALL_ROLLING_PART * np.abs(power_loss)
     return [f"< {percent(SMALL_ROLLING_PART)}" if is_small else text for text, is_small in zip(texts, are_small)]
+
+
+def negative_in_words(rolling: FloatArray, power_loss: FloatArray) -> str:
+    """Return what a ``rolling`` part below 0 is, in a sentence; "" where none is stated in a table."""
+    are_stated = rolling < -SMALL_ROLLING_PART * np.abs(power_loss)
+    return NEGATIVE_ROLLING_PART if are_stated.any() else ""
 
 
 def heading_of_rolling(unit: str) -> str:

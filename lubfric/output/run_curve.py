@@ -318,12 +318,12 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
 def _largest_parts(curve: studies.CurveResult) -> list[str]:
     """Return what the largest part of the interval of f is and what reduces it, in a line for all points that have the
     same; none for points where no input or tolerance reduces it."""
-    name, _, unit, plural = curve.SWEPT
+    swept, _, unit, plural = curve.SWEPT
     places: dict[str, list[float]] = {}
-    for value, point in zip(getattr(curve, name).tolist(), curve.points):
-        part, advice = ("", "") if point is None else point.uncertainty.largest_part_and_advice
-        if advice:
-            places.setdefault(f"{part}{advice}", []).append(value)
+    for value, point in zip(getattr(curve, swept).tolist(), curve.points):
+        name, advice = ("", "") if point is None else point.uncertainty.largest_part_and_advice
+        if point is not None and advice:
+            places.setdefault(f"{point.uncertainty.part_in_words(name)}{advice}", []).append(value)
     return [
         f"largest part of the interval of f {at_values(values, unit, plural)}: {words}"
         for words, values in places.items()
@@ -349,8 +349,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
         place, worst = max(noted, key=lambda p: -1.0 if p[1].is_near_zero else p[1].sampling)
-        others = counted(len(noted) - 1, f"more {plural}")
-        more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
+        others = counted(len(noted) - 1, f"other {plural}")
+        more = f", where its sampling error is largest (for {others} see result.json)" if len(noted) > 1 else ""
         head = f"uncertainty of f {at_value(place, unit, plural)}{more}:"
         lines.append(f"\n{INDENT}".join((head, *worst.notes)) if len(worst.notes) > 1 else f"{head} {worst.notes[0]}")
         if few and few != [place]:

@@ -21,7 +21,7 @@ from ..units import (
     worded,
 )
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, NUMBER, Cell, number_cells, table
-from .rolling_part import heading_of_rolling, is_tabled, rolling_part, without_small
+from .rolling_part import heading_of_rolling, is_tabled, negative_in_words, rolling_part, without_small
 from .study_points import error_in_words, parts_of_error, scene_of_each
 
 # Rows of the table of a report, about; study.csv has all.
@@ -98,7 +98,10 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
         if status in failures:
             line.append(Cell(text=status, kind="warning", columns=len(heads) - inputs_alone))
         body.append(line)
-    return table(heads, body)
+    rolling = rolling_part(columns["rolling_resistance"], columns["speed"])[picked]
+    loss = columns["power_loss"][picked]
+    below_0 = negative_in_words(rolling, loss) if is_tabled(rolling, loss) else ""
+    return table(heads, body) + (f"<p>{escape(below_0)}</p>" if below_0 else "")
 
 
 def _rolling_column(columns: dict[str, np.ndarray], picked: np.ndarray, heads: list[str]) -> list[list[str]]:

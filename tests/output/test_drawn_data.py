@@ -230,7 +230,9 @@ def test_errors_of_f_are_no_assumptions_below_a_curve(figures):
     errors = [SimpleNamespace(severe=False, is_note=False, assumption=name, what="") for name in of_f]
     starved = SimpleNamespace(severe=False, is_note=False, assumption="", what="starved")
     plot_stribeck("x.png", COLUMNS, "title", [(*errors,), (), (), (*errors, starved)])
-    text = figures[0].get_supxlabel()
+    lines_below = figures[0].get_supxlabel().splitlines()
+    assert max(map(len, lines_below)) < 14 * figures[0].get_figwidth()
+    text = " ".join(lines_below)
     assert text.endswith(": starved (1 of 3 points)") and "error" not in text
     assert data(figures[0].axes[0], "with warnings").shape == (2, 2)
 

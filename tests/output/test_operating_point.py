@@ -10,7 +10,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.output import describe_scene, main
+from lubfric.output import describe_scene, main, negative_in_words
 
 SURFACE = "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n"
 NUMERICS = '[numerics]\nsampling = "patch"\nmodel = "paper"\ntolerance = 0.2\n'
@@ -85,3 +85,10 @@ def test_info_estimates_the_points_that_a_run_with_the_same_option_solves(tmp_pa
     rows = text.partition("U [m/s]")[2].splitlines()
     listed = [row.split()[0] for row in rows if re.match(r"  0\.\d+ ", row)]
     assert listed == list(dict.fromkeys(f"{point['speed']:.4g}" for point in points))
+
+
+def test_a_rolling_resistance_below_0_is_explained_where_a_table_states_it():
+    """2 % of the loss and more; what the table does not state needs no explanation."""
+    loss = np.array([1.0, 2.0])
+    assert "either sign" in negative_in_words(np.array([0.3, -0.05]), loss)
+    assert negative_in_words(np.array([0.3, -0.01]), loss) == negative_in_words(np.array([0.3, 0.0]), loss) == ""

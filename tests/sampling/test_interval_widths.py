@@ -274,6 +274,8 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     assert known.largest_part.startswith("largest part: sampling 5.6 %")  # Student's t of four degrees: 2.78
     by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
     assert by_input.largest_part == "largest part: input 20 %; give a measured lubricant.eyring_stress to reduce it"
+    named = replace(by_input, inputs_in_interval=("bodies.hardness", "lubricant.eyring_stress"))
+    assert named.largest_part.startswith("largest part: input (hardness, eyring_stress) 20 %; give a measured")
     part = ModelErrorPart(sides=(0.3, 0.2), cause="the boundary film", recommendation="bodies.boundary_film reduces it")
     by_model = replace(known, model=0.3, largest_in_model=part)
     assert by_model.largest_part == "largest part: model-form 30 % (the boundary film); bodies.boundary_film reduces it"
@@ -316,7 +318,8 @@ def test_the_report_shows_every_part_of_the_budget():
 def test_the_largest_part_of_any_kind_is_named_with_what_reduces_it():
     for name, part in PARTS.items():
         known = Uncertainty(**{"sampling": 0.0, "missing_input": "a.b", "freedom": 9.0, part.quantity: 0.4})
-        assert known.largest_part.startswith(f"largest part: {name} ")
+        called = "a.b not given" if name == "not given" else name
+        assert known.largest_part.startswith(f"largest part: {called} ")
         assert known.largest_part.endswith("to reduce it")
         assert not part.sides or len(getattr(known, part.sides)) == 2
 

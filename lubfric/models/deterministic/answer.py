@@ -218,7 +218,7 @@ def fields_of(strip: StripSolution, where: str) -> ContactFields:
     """Return the fields of ``strip``; of roughness that moves those of its last moment."""
     result = strip.result
     heights = strip.problem.heights
-    parts = filter(None, (where, strip.moment_in_words))
+    parts = filter(None, (where, strip.moment_in_words and f"at {strip.moment_in_words}"))
     return ContactFields(
         solve=f"deterministic model on {', '.join(parts)}",
         x=result.x,

@@ -290,7 +290,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     basis = f"quick model (the deterministic model on long cells, calibrated on {cases} solved cases)"
     fields = answer.fields
     if fields is not None:
-        fields = replace(fields, solve=f"quick model: {fields.solve} with long cells")
+        fields = replace(fields, solve=f"quick model (long cells): {fields.solve}")
     return replace(
         answer,
         fields=fields,
