@@ -274,7 +274,7 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     across = max(1, min(len(handles), letters // longest))
     legend = figure.legend(
         handles=handles,
-        title=_interval_in_words(columns) or None,
+        title=median_interval_in_words(columns) or None,
         title_fontsize=size,
         loc="outside lower center",
         ncols=across,
@@ -284,7 +284,7 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     figure.set_figheight(figure.get_figheight() + legend.get_window_extent().height / figure.dpi)
 
 
-def _interval_in_words(columns: dict[str, np.ndarray]) -> str:
+def median_interval_in_words(columns: dict[str, np.ndarray]) -> str:
     """Return the median 95 % interval of f of one point, relative, or that none is known; "" where ``columns`` have
     none."""
     low, high = (columns.get(name, np.zeros(0)) for name in studies.INTERVAL_COLUMNS["coefficient"])

@@ -10,7 +10,7 @@ import numpy as np
 from .. import studies
 from .._base import figures
 from ..quantities import COLUMNS, counted
-from .effect_pictures import FEW_SPEEDS, draw_effects
+from .effect_pictures import FEW_SPEEDS, draw_effects, median_interval_in_words
 from .picture_options import PictureOptions
 
 if TYPE_CHECKING:
@@ -67,8 +67,10 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
     elif over:
         figure = figures.new_figure(figsize=options.size([STUDY_HEIGHT]))
         axes = figure.subplots()
-        studies.lines_over(axes, result, over, has_bands=True)
-        _begin_at_zero(axes, result)
+        has_bands = studies.lines_over(axes, result, over, has_bands=True) <= studies.MOST_BANDS
+        _begin_at_zero(axes, result, has_intervals=has_bands)
+        if not has_bands and (interval := median_interval_in_words(result.columns)):
+            axes.plot([], [], " ", label=interval)
         figures.key_above(axes, 2)
     elif varied and (len(varied) <= MOST_PANELS or result.status.size > MANY_POINTS):
         figure = draw_effects(result, varied, options)
@@ -158,12 +160,14 @@ def _draw_points(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> N
         axes.vlines(over[known], low[known], high[known], **bars)
     axes.plot(over, f, "o", ms=5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION_LABEL)
-    _begin_at_zero(axes, result)
+    _begin_at_zero(axes, result, has_intervals=True)
 
 
-def _begin_at_zero(axes: Axes, result: studies.StudyResult) -> None:
-    """Let the axis of f begin at 0, or below its negative values, and end above the largest end of an interval."""
-    numbers = [result[name].ravel() for name in ("coefficient", "interval_low", "interval_high")]
+def _begin_at_zero(axes: Axes, result: studies.StudyResult, *, has_intervals: bool) -> None:
+    """Let the axis of f begin at 0, or below its negative values, and end above the largest f, or end of an interval
+    where the picture ``has_intervals``."""
+    names = ("coefficient", *(studies.INTERVAL_COLUMNS["coefficient"] if has_intervals else ()))
+    numbers = [result[name].ravel() for name in names]
     finite = np.concatenate([values[np.isfinite(values)] for values in numbers])
     if finite.size:
         axes.set_ylim(min(0.0, 1.05 * finite.min()), 1.05 * max(finite.max(), 0.0) or None)

@@ -28,7 +28,7 @@ from ..models.load_sharing import Balance, solve_balance
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
 from ..scene import Scene
 from ..surface import Surface
-from ..units import converted, printed, unit_for
+from ..units import converted, printed, unit_of_largest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -111,7 +111,7 @@ class Wear(FrozenArrays, Shown):
         new axes. Without asperity load there is no such ratio to draw."""
         axes = figures.axes_or_new(ax)
         first = self.lift_off_speed[0]
-        unit = unit_for(self.distance[1:].tolist(), "m")
+        unit = unit_of_largest(self.distance.tolist(), "m")
         over = converted(self.distance, "m", unit)
         low, high = self.lift_off_interval.T / first
         axes.plot(over, self.sq / self.sq[0], "o-", ms=4, color=figures.GREY, label="Sq")

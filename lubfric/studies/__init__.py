@@ -23,7 +23,7 @@ from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import OF_TOLERANCES, StudyResult, has_study, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
-from .study_lines import NAMED, NAMED_SHADES, STYLES, line_colours, lines_over, name_places, tick_values
+from .study_lines import MOST_BANDS, NAMED, NAMED_SHADES, STYLES, line_colours, lines_over, name_places, tick_values
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     LARGEST_BETWEEN,

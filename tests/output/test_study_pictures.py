@@ -244,6 +244,19 @@ def test_keys_are_told_apart_by_colours_and_markers(tmp_path, drawn, name, count
     assert result.place((0, *map(int, places), 0)).count(shown) == 1
 
 
+@pytest.mark.parametrize("name, has_bands", [("one key over speeds", True), ("speeds", False)])
+def test_the_interval_of_lines_without_bands_is_stated(tmp_path, drawn, name, has_bands):
+    """The axis ends above f where no band is drawn: the made-up intervals are 30 % higher."""
+    result = made(name)
+    study_pictures.plot_study(tmp_path / "study.png", result)
+    (axes,) = drawn[0].axes
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    stated = [text for text in names if text.startswith("95 % interval of a point (median): -20 %, +30 %")]
+    assert len(stated) == (not has_bands)
+    top = axes.get_ylim()[1] / result["coefficient"].max()
+    assert top == pytest.approx(1.05 * (1.3 if has_bands else 1.0))
+
+
 def test_names_of_an_axis_are_those_of_the_study(tmp_path, drawn):
     study_pictures.plot_study(tmp_path / "study.png", made_study(*STUDIES["names alone"]))
     (axes,) = drawn[0].axes
