@@ -158,7 +158,11 @@ class Quantities(Generic[T]):
     )
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="contacts")
     min_film: T = quantity(
-        "m", "smallest film thickness", "h_min", error="film", note="under the load F_H; NaN at U = 0"
+        "m",
+        "smallest film thickness",
+        "h_min",
+        error="film",
+        note="of the smooth film under the load F_H by load sharing, of the rough gap by the other models; NaN at U = 0",
     )
     central_film: T = quantity(
         *("m", "central separation", "h_c"),

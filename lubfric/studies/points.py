@@ -31,6 +31,7 @@ from .store import OUTCOME, Store, digest, fingerprint_without_files, is_shared,
 Outcome = FrictionResult | LubfricError
 SPEED = "speed"
 STATUS = "status"
+MODEL = "model"
 CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
 VIOLATIONS = "violations"
@@ -162,8 +163,8 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
 
 
 def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]:
-    """Return the numbers of a point by name, those of its uncertainty among them, its status as text and the
-    assumptions that do not hold, by the ``numerics`` of its study."""
+    """Return the numbers of a point by name, those of its uncertainty among them, its status and its model as text and
+    the assumptions that do not hold, by the ``numerics`` of its study."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
@@ -171,7 +172,7 @@ def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]
     numbers |= zip(INTERVAL_COLUMNS["power_loss"], outcome.power_loss_interval)
     notes = (*_missed_sampling_tolerance(outcome.uncertainty), *_accepted_model_error(outcome, numerics))
     violations = (*outcome.validity, *notes)
-    return {STATUS: outcome.report.status, VIOLATIONS: violations, **numbers}
+    return {STATUS: outcome.report.status, MODEL: outcome.decision.model, VIOLATIONS: violations, **numbers}
 
 
 def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:

@@ -35,7 +35,7 @@ from .interpolate import Interpolant, through
 from .law import law_of_study
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
-from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, MapError, solved_together
+from .points import CONVERGED_COLUMN, MISSING, MODEL, SPEED, STATUS, UNUSED, VALIDITY, MapError, solved_together
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_lines import plot
 from .study_table import StudyTable
@@ -67,7 +67,7 @@ POINTS_AT_ONCE = 8
 LEAST_JOBS = 64
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class StudyResult(Renamed, Shown):
     """Numbers of a study: arrays over the varied values and, last, the speed.
 
@@ -82,6 +82,7 @@ class StudyResult(Renamed, Shown):
     columns : every number of a `FrictionResult` by name; NaN where a point failed
     status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
         numbers
+    model : the name of the model that answered at a point; "" where none did
     violations : the assumptions that do not hold at a point, a tuple of `lubfric.Violation`. With ``numerics.accept``
         these mark the points that are no answers
     """
@@ -89,6 +90,7 @@ class StudyResult(Renamed, Shown):
     plan: StudyPlan
     columns: dict[str, np.ndarray]
     status: np.ndarray
+    model: np.ndarray
     violations: np.ndarray
     _RENAMED = {"cautioned": "with_warnings"}
 
@@ -168,8 +170,9 @@ class StudyResult(Renamed, Shown):
         return tuple(gathered_in_table(self.violations[self.status != UNUSED].tolist()))
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name in (STATUS, VALIDITY):
-            return self.status if name == STATUS else self.validity
+        if name in (STATUS, MODEL, VALIDITY):
+            text: np.ndarray = getattr(self, name)
+            return text
         name = OLD_COLUMNS.get(name, name)
         if name not in self.columns:
             raise InputError(f"a study has no column {name!r}{validate.nearest(name, self.columns)}; see .columns")
@@ -473,13 +476,13 @@ def _keep(store: Store, key: str, record: Any) -> None:
 
 def result_of_table(table: StudyTable) -> StudyResult:
     """Return the result of a ``table``."""
-    columns, status, violations = table.cut()
+    columns, status, model, violations = table.cut()
     names = [name for name in NUMBERS if name in columns or name != SPEED or table.plan.chooses_speeds]
     names += [name for name in COLUMNS_OF_ERRORS if name not in names]
     missing = np.full(status.shape, np.nan)
     ordered = {name: columns.get(name, missing) for name in names}
     kept = _without_notes_of_rolling(ordered | columns, violations)
-    return StudyResult(table.plan, ordered | columns, status, kept)
+    return StudyResult(plan=table.plan, columns=ordered | columns, status=status, model=model, violations=kept)
 
 
 def _without_notes_of_rolling(columns: dict[str, np.ndarray], violations: np.ndarray) -> np.ndarray:

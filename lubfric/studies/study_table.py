@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .choose import MOST_CHOSEN_SPEEDS
-from .points import MISSING, SPEED, STATUS, UNUSED, VIOLATIONS, Outcome, row_of
+from .points import MISSING, MODEL, SPEED, STATUS, UNUSED, VIOLATIONS, Outcome, row_of
 from .store import CHOSEN, OUTCOME, Store, digest, point_key
 
 
@@ -18,6 +18,7 @@ class StudyTable:
     ----------
     columns : numbers by name; NaN where a point failed, or is not computed
     status : as text
+    model : the name of the model that answered; "" where none did
     violations : a tuple of `lubfric.Violation` for each point
     solved : number of points that have an outcome, equal ones of several curves counted once
     ended : keys of the curves that chose all their speeds
@@ -30,6 +31,7 @@ class StudyTable:
             self.width = MOST_CHOSEN_SPEEDS
         self.columns: dict[str, np.ndarray] = {}
         self.status = np.full(self._shape, UNUSED if plan.chooses_speeds else MISSING, dtype=object)
+        self.model = np.full(self._shape, "", dtype=object)
         self.violations = np.empty(self._shape, dtype=object)
         self.violations.fill(())
         self.solved = 0
@@ -51,9 +53,10 @@ class StudyTable:
         self.solved += 1
         for curve, place in places:
             self.status[curve, place] = row[STATUS]
+            self.model[curve, place] = row.get(MODEL, "")
             self.violations[curve, place] = row.get(VIOLATIONS, ())
         for name, value in row.items():
-            if name in (STATUS, VIOLATIONS) or name == SPEED and not self.plan.chooses_speeds:
+            if name in (STATUS, MODEL, VIOLATIONS) or name == SPEED and not self.plan.chooses_speeds:
                 continue
             if name not in self.columns:
                 self.columns[name] = np.full(self._shape, np.nan)
@@ -73,6 +76,7 @@ class StudyTable:
         self.solved -= len(self._chosen.pop(key, ()))
         for curve in self._curves[key]:
             self.status[curve] = UNUSED
+            self.model[curve] = ""
             self.violations[curve].fill(())
             for column in self.columns.values():
                 column[curve] = np.nan
@@ -133,8 +137,8 @@ class StudyTable:
         along = tuple(map(int, np.unravel_index(curve, self.plan.curve_shape)))
         return along if self.plan.paired else (*along, place)
 
-    def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-        """Return (columns, status, violations) in the shape of the study, without places that no curve used; a curve
+    def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray, np.ndarray]:
+        """Return (columns, status, model, violations) in the shape of the study, without places that no curve used; a curve
         that has not ended has one place that is not computed."""
         if self.plan.chooses_speeds:
             for key, curves in self._curves.items():
@@ -144,4 +148,7 @@ class StudyTable:
         used = 1 + int(np.flatnonzero((self.status != UNUSED).any(axis=0)).max(initial=0))
         shape = self.plan.curve_shape if self.plan.paired else (*self.plan.curve_shape, used)
         columns = {name: column[:, :used].reshape(shape) for name, column in self.columns.items()}
-        return columns, self.status[:, :used].reshape(shape), self.violations[:, :used].reshape(shape)
+        status, model, violations = (
+            each[:, :used].reshape(shape) for each in (self.status, self.model, self.violations)
+        )
+        return columns, status, model, violations

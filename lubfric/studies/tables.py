@@ -21,7 +21,7 @@ from .choose import between
 from .interpolate import Interpolant, through
 from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
-from .points import SPEED, STATUS, UNUSED, VALIDITY
+from .points import MODEL, SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,6 +77,7 @@ def to_xarray(result: Any) -> Any:
     xarray = validate.installed("xarray", "study")
     data = {name: (result.dims, values, described(name)) for name, values in result.columns.items()}
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
+    data[MODEL] = (result.dims, result.model.astype(str), {"long_name": "model that answered"})
     data[VALIDITY] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
     coords = {key: (dim, values, described(key)) for key, (dim, values) in result.coords.items()}
     attributes = {"title": f"friction of {result.plan.scene.name}", "source": f"lubfric {__version__}"}
@@ -113,15 +114,16 @@ def to_csv(result: Any, path: str | Path) -> None:
 
 
 def columns_of_study(result: Any) -> dict[str, np.ndarray]:
-    """Return the columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value
-    for each point. Places that a curve did not need have no row."""
+    """Return the columns of a table: the varied keys, the speed, the numbers, the status, the model and the validity,
+    one value for each point. Places that a curve did not need have no row."""
     shape = result.status.shape
     columns = {}
     for key, (dim, values) in result.coords.items():
         along = [1] * len(shape)
         along[result.dims.index(dim)] = values.size
         columns[key] = np.broadcast_to(values.reshape(along), shape)
-    columns |= result.columns | {STATUS: result.status.astype(str), VALIDITY: result.validity.astype(str)}
+    texts = {STATUS: result.status, MODEL: result.model, VALIDITY: result.validity}
+    columns |= result.columns | {name: values.astype(str) for name, values in texts.items()}
     used = result.status != UNUSED
     return {name: values[used] for name, values in columns.items()}
 

@@ -11,12 +11,12 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from scene_text import paper_scene
-from small_study import violations_at
+from small_study import made_study
 
 import lubfric
 from lubfric.output import curve_picture, pictures, study_pictures
 from lubfric.output.picture_options import PictureOptions
-from lubfric.studies import StudyResult, main_effects
+from lubfric.studies import main_effects
 
 SCENE = paper_scene(numerics={"sampling": "patch", "model": "paper"}).with_(
     name="cam follower of a diesel engine, line A",
@@ -125,17 +125,17 @@ COLUMN_HEIGHT = 7.0  # inch: a picture of this height leaves room for its captio
 @cache
 def made(name):
     """The study of `STUDIES`, which no picture changes."""
-    return made_study(*STUDIES[name])
+    return made_study_over(*STUDIES[name])
 
 
-def made_study(vary, speeds):
+def made_study_over(vary, speeds):
     """A study with made-up numbers: nothing is solved."""
     along = {"points": speeds} if isinstance(speeds, dict) else {"speeds": speeds}
     plan = lubfric.plan_study(SCENE, vary, **along)
     f = np.linspace(0.03, 0.12, int(np.prod(plan.shape))).reshape(plan.shape)
     columns = {"coefficient": f, "interval_low": 0.8 * f, "interval_high": 1.3 * f}
     columns |= {"power_loss": 10 * f, "power_loss_low": 8 * f, "power_loss_high": 13 * f}
-    return StudyResult(plan, columns, np.full(f.shape, "converged", dtype=object), violations_at(f.shape))
+    return made_study(plan, columns)
 
 
 @pytest.fixture
@@ -211,7 +211,7 @@ def test_texts_of_a_study_are_complete_and_apart(tmp_path, drawn, name, width):
 
 
 def test_two_keys_are_lines_over_one_with_a_colour_for_each_value_of_the_other(tmp_path, drawn):
-    result = made_study(*STUDIES["two keys"])
+    result = made_study_over(*STUDIES["two keys"])
     study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[0].axes
     handles = dict(zip(*reversed(axes.get_legend_handles_labels())))
@@ -229,7 +229,7 @@ def test_two_keys_are_lines_over_one_with_a_colour_for_each_value_of_the_other(t
 @pytest.mark.parametrize("name, count", [("three keys", 9), ("four keys", 12)])
 def test_keys_are_told_apart_by_colours_and_markers(tmp_path, drawn, name, count):
     """The line of each combination is that of its numbers, and the key of lines names its temperature."""
-    result = made_study(*STUDIES[name])
+    result = made_study_over(*STUDIES[name])
     study_pictures.plot_study(tmp_path / "study.png", result)
     (axes,) = drawn[0].axes
     lines = [line for line in axes.lines if len(line.get_xdata()) == len(LOADS) and line.get_marker() != "None"]
@@ -258,7 +258,7 @@ def test_the_interval_of_lines_without_bands_is_stated(tmp_path, drawn, name, ha
 
 
 def test_names_of_an_axis_are_those_of_the_study(tmp_path, drawn):
-    study_pictures.plot_study(tmp_path / "study.png", made_study(*STUDIES["names alone"]))
+    study_pictures.plot_study(tmp_path / "study.png", made_study_over(*STUDIES["names alone"]))
     (axes,) = drawn[0].axes
     assert [tick.get_text() for tick in axes.get_xticklabels()] == ["100Cr6", "silicon nitride"]
     assert axes.get_xlabel() == "material"
@@ -321,7 +321,7 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
     """For each speed the mean over all other inputs, between the smallest and the largest f; the largest part of the
     variance first."""
     vary, speeds = STUDIES["four keys over two speeds"]
-    result = made_study(vary, speeds)
+    result = made_study_over(vary, speeds)
     f = 0.01 * np.indices(f_shape := result.status.shape)[0] + 0.002 * np.indices(f_shape)[1] + 0.05
     f = f * (1 + 0.1 * np.indices(f_shape)[4])
     study_pictures.plot_study(tmp_path / "study.png", replace(result, columns=result.columns | {"coefficient": f}))
@@ -348,7 +348,7 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
 
 def test_a_sample_at_several_speeds_has_the_effects_of_one_at_one_speed():
     """The values of a sample repeat at each speed alone: the means there hold what the other inputs do."""
-    alone, twice = (made_study({FOUR: SAMPLE}, speeds) for speeds in ([0.1], [0.1, 1.0]))
+    alone, twice = (made_study_over({FOUR: SAMPLE}, speeds) for speeds in ([0.1], [0.1, 1.0]))
     load, sq, *_ = np.transpose(SAMPLE)
     f = (load * sq**2)[:, None] * np.ones(2)
     (one, two) = (
@@ -361,5 +361,5 @@ def test_a_sample_at_several_speeds_has_the_effects_of_one_at_one_speed():
 
 @pytest.mark.parametrize("count, is_told_apart", [(6, True), (7, False)])
 def test_lines_of_a_sample_are_drawn_while_each_has_a_name(tmp_path, drawn, count, is_told_apart):
-    study_pictures.plot_study(tmp_path / "study.png", made_study({FOUR: SAMPLE[:count]}, [0.03, 0.1, 0.3]))
+    study_pictures.plot_study(tmp_path / "study.png", made_study_over({FOUR: SAMPLE[:count]}, [0.03, 0.1, 0.3]))
     assert (len(drawn[0].axes) == 1) == is_told_apart

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_study import SCENE, violations_at
+from small_study import SCENE, made_study
 
 import lubfric
 from lubfric.models.shared import violations_by_typical_heat
 from lubfric.output import best_designs, study_answer, study_pictures, study_report
-from lubfric.studies import StudyResult, design_keys, operating_keys
+from lubfric.studies import design_keys, operating_keys
 from lubfric.units import with_interval
 
 LOADS = [3.0, 5.0, 8.0]
@@ -29,7 +29,7 @@ def made(f, half_width, scene=SCENE, **plan):
     columns |= {"power_loss": 10 * f, "power_loss_low": 10 * (f - half_width), "power_loss_high": 10 * (f + half_width)}
     columns |= {"film_load": np.ones(planned.shape), "model_error": half_width / np.abs(f)}
     numbers = dict.fromkeys(lubfric.study(SCENE, {}, [0.3]).columns, np.zeros(planned.shape)) | columns
-    return StudyResult(planned, numbers, np.full(planned.shape, "converged"), violations_at(planned.shape))
+    return made_study(planned, numbers)
 
 
 RANDOM = np.random.default_rng(3)

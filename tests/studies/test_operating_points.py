@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from small_study import SCENE, same, violations_at
+from small_study import SCENE, made_study, same
 
 import lubfric
 from lubfric.output import films_in_words, main
@@ -14,7 +14,7 @@ from lubfric.output.study_answer import answer_lines
 from lubfric.output.study_inputs import common_inputs, range_in_a_line
 from lubfric.output.study_report import study_page
 from lubfric.output.study_tables import why_no_rises
-from lubfric.studies import StudyResult, load_study, plot_points
+from lubfric.studies import load_study, plot_points
 from lubfric.units import with_interval
 
 ROWS = [  # radius m, load N, u1, u2 m/s, duration s
@@ -418,9 +418,8 @@ def stand_in(model_error=0.4):
     """A result of these points with made-up numbers: nothing is solved."""
     f = np.array([0.1, 0.2, 0.3])
     columns = {name: np.full(3, model_error) for name in ("interval_low", "interval_high", "model_error")}
-    status = np.array(["converged"] * 3, dtype=object)
     columns |= {"coefficient": f, "power_loss": f}
-    return StudyResult(HOT, columns, status, violations_at(3))
+    return made_study(HOT, columns)
 
 
 def test_a_table_without_positions_is_drawn_over_the_number_of_its_points():

@@ -84,6 +84,7 @@ def test_warnings_and_accepted_points_are_marked(tmp_path):
     point = lubfric.friction(thin.with_(numerics={"accept": True}), 1000.0)
     assert any(entry.severe for entry in point.validity)
     assert result.status[0, 1, 1].startswith("ValidityError") and result.status[1, 1, 1] == "converged"
+    assert (result.model[0, 1, 1], result.model[1, 1, 1]) == ("", "paper")
     assert result.validity[1, 1, 1] == " | ".join(entry.text for entry in point.validity)
     assert "not valid" in result.validity[1, 1, 1] and result.validity[1, 0, 0] == ""
     assert result.with_warnings == np.count_nonzero(result.validity != "") and "with warnings" in repr(result)
@@ -92,7 +93,7 @@ def test_warnings_and_accepted_points_are_marked(tmp_path):
     result.to_csv(tmp_path / "t.csv")
     rows = list(csv.DictReader((tmp_path / "t.csv").read_text().splitlines()))
     assert [row["validity"] for row in rows] == result.validity.ravel().tolist()
-    assert {name for name in rows[0] if "[" not in name} == {"numerics.accept", "status", "validity"}
+    assert {name for name in rows[0] if "[" not in name} == {"numerics.accept", "status", "model", "validity"}
     assert {"line_length [m]", "numerical_error [-]", "speed [m/s]"} <= set(rows[0])
 
 
@@ -107,7 +108,8 @@ def test_all_tables_have_one_name_for_one_number(tmp_path):
     study.to_csv(tmp_path / "study.csv")
     lines["study"] = (tmp_path / "study.csv").read_bytes()
     rows = {name: next(csv.DictReader(text.decode().splitlines())) for name, text in lines.items()}
-    texts = {"status", "validity", "uncertainty", "ratio [-]"}
+    texts = {"status", "model", "validity", "uncertainty", "ratio [-]"}
+    assert rows["study"]["model"] == "paper"
     numbers = {name: {key: float(cell) for key, cell in row.items() if key not in texts} for name, row in rows.items()}
     assert set(numbers["study"]) == set(numbers["stribeck"]) == set(numbers["traction"])
     assert {"interval_low [-]", "model_error_high [-]", "input_error_low [-]"} <= set(numbers["study"])
@@ -466,6 +468,7 @@ def test_the_plan_names_the_model_whose_error_is_within_the_tolerance(tolerance,
     """Where asperities carry load, load sharing does not answer, however wide the tolerance."""
     scene = SCENE.with_(numerics={"model": "auto", "model_tolerance": tolerance})
     answering = lubfric.friction(scene, speed).decision.model
+    assert lubfric.study(scene, {}, [speed])["model"].tolist() == [answering]
     title = {"paper": "load-sharing model", "quick": "quick model"}[answering]
     assert f"model    {title} (numerics" in lubfric.plan_study(scene, {}, [speed]).explain()
     assert answering == ("quick" if speed == 0.03 else "paper")

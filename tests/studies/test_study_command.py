@@ -16,7 +16,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.stats import t as student
 from small_study import SCENE as SMALL
-from small_study import violations_at
+from small_study import made_study, violations_at
 
 import lubfric
 from lubfric import studies
@@ -106,7 +106,7 @@ def numbered(vary, coefficient):
         f[place] = coefficient(scene)
     names = list(lubfric.study(SMALL, {}, [0.3]).columns)
     columns = dict.fromkeys(names, np.zeros(f.shape)) | {"coefficient": f, "film_load": np.ones(f.shape)}
-    return studies.StudyResult(plan, columns, np.full(f.shape, "converged"), violations_at(f.shape))
+    return made_study(plan, columns)
 
 
 def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
@@ -182,7 +182,7 @@ def test_shares_of_a_table_of_points_are_those_of_its_columns():
     f = np.array([load**-1.0 * speed**0.5 for load, speed in pairs])
     columns = lubfric.study(SMALL, {}, [0.3]).columns
     columns = dict.fromkeys(columns, np.zeros(f.shape)) | {"coefficient": f}
-    result = studies.StudyResult(plan, columns, np.full(f.shape, "converged"), violations_at(f.shape))
+    result = made_study(plan, columns)
     effects = studies.main_effects(result)
     assert list(effects) == ["bodies.load", "speed"]
     assert [effect.share for effect in effects.values()] == pytest.approx([0.8, 0.2])
@@ -198,7 +198,7 @@ def drawn_designs(repeated):
     columns = {name: np.full(len(rows), values.item()) for name, values in columns.items()}
     loss = np.array([load * (1e7 * sq) ** 2 for load, sq in rows])
     ends = {"power_loss": loss, "power_loss_low": 0.99 * loss, "power_loss_high": 1.01 * loss}
-    return studies.StudyResult(plan, columns | ends, np.full(loss.shape, "converged"), violations_at(loss.shape))
+    return made_study(plan, columns | ends)
 
 
 def test_rows_that_repeat_a_design_leave_no_effect_of_an_input():
