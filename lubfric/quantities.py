@@ -460,5 +460,6 @@ def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
 
 
 def counted(count: int, plural: str) -> str:
-    """Return how many there are, as text: "1 speed", "2 speeds"."""
-    return f"{count} {plural if count != 1 else plural.removesuffix('s')}"
+    """Return how many there are, as text: "1 speed", "2 speeds", "1 pass"."""
+    singular = plural.removesuffix("es" if plural.endswith("sses") else "s")
+    return f"{count} {plural if count != 1 else singular}"

@@ -54,6 +54,13 @@ def test_numbers_are_reported_in_units_of_people(value, unit, text):
     assert worded(value, unit) == text
 
 
+@pytest.mark.parametrize(
+    "count, plural, text", [(1, "passes", "1 pass"), (1, "speeds", "1 speed"), (2, "passes", "2 passes")]
+)
+def test_what_is_counted_is_one_or_several(count, plural, text):
+    assert q.counted(count, plural) == text
+
+
 def test_another_quantity_that_depends_on_the_area_has_its_error(monkeypatch):
     """The error of a column is by what it depends on, not by its place among the others."""
     home = "lubfric.models.load_sharing.errors_of.depending_on"

@@ -8,7 +8,7 @@ from ..errors import InputError
 from ..estimate import FrictionResult
 from ..models import title_of
 from ..models.shared import LARGE_NUMERICAL_ERROR, at_values, is_by_sliding, percent, percent_or_less
-from ..quantities import COLUMNS, counted, worded_value
+from ..quantities import COLUMNS, worded_value
 from ..scene import Scene
 from ..studies import LARGEST_BETWEEN, CurveResult, StribeckResult, TractionResult, columns_of_curve
 from ..time import TransientResult
@@ -88,8 +88,9 @@ def curve_answer(scene: Scene, curve: CurveResult, point: FrictionResult, place:
         least = place_on_curve(curve, sliding[f[sliding].argmin()])
         largest = place_on_curve(curve, sliding[f[sliding].argmax()])
         ends = f"from {plain_number(f[sliding].min())} {least} to {plain_number(f[sliding].max())} {largest}"
-        where = "" if sliding.size == solved.size else " and at which rolling resistance does not make most of f"
-        sentences.append(f"Over the {counted(sliding.size, curve.SWEPT[3])} solved{where}, f goes {ends}.")
+        where = "" if sliding.size == solved.size else " at which rolling resistance does not make most of f"
+        count = f"{sliding.size} solved {curve.SWEPT[3]}"
+        sentences.append(f"Over the {count}{where}, f goes {ends}.")
     return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
 
 

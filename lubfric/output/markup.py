@@ -42,10 +42,9 @@ class Cell:
 
 
 def paragraphs(sentences: Iterable[str]) -> str:
-    """Return the first sentence as the answer, the others as a paragraph."""
-    first, *others = [escape(text) for text in sentences] or [""]
-    more = f"<p>{' '.join(others)}</p>" if others else ""
-    return f'<p class="answer">{first}</p>{more}' if first else ""
+    """Return the first sentence as the answer, the others as a list."""
+    first, *others = sentences or [""]
+    return f'<p class="answer">{escape(first)}</p>{bullets(others)}' if first else ""
 
 
 def bullets(lines: Sequence[str], otherwise: str = "", kind: str = "") -> str:

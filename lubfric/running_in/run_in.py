@@ -155,7 +155,7 @@ class RunIn(FrozenArrays, Shown):
             "Sq": f"{old.sq * NM:.4g} to {new.sq * NM:.4g} nm{span}",
             "Ssk": skewness,
             "dented": f"{100 * np.count_nonzero(self.dents) / self.dents.size:.3g} %",
-            "": f"{end} after {self.deepest.size} passes",
+            "": f"{end} after {counted(self.deepest.size, 'passes')}",
         } | (
             {}
             if self.wear is None

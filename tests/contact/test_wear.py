@@ -258,3 +258,5 @@ def test_the_history_is_drawn(worn):
     axes = worn.wear.plot()
     np.testing.assert_allclose(axes.lines[1].get_ydata(), worn.wear.lift_off_speed / worn.wear.lift_off_speed[0])
     assert replace(worn.wear, steps=3).steps == 3
+    far = replace(worn.wear, distance=worn.wear.distance * 10.0 / worn.wear.distance[-1]).plot()
+    assert far.get_xlabel() == "sliding distance in the contact (m)" and far.lines[0].get_xdata()[-1] == 10.0

@@ -58,7 +58,7 @@ def test_speeds_of_the_command_alone_are_solved_and_the_first_lines_say_so(tmp_p
         "contain it."
     )
     speeds, page, _ = ran(tmp_path, "entrainment_speed = 0.05", "--speeds", "0.01,0.1")
-    assert speeds == [0.01, 0.1] and page.split('<p class="answer">')[1].split("<p>")[1].startswith(why)
+    assert speeds == [0.01, 0.1] and page.split('<p class="answer">')[1].split("<li>")[1].startswith(why)
     # by ratio 0.1 m/s is the nearest speed, by difference 0.01 m/s
     assert "at U = 0.1 m/s" in page.split('<p class="answer">')[1].partition("</p>")[0]
     assert np.load(tmp_path / "out" / "fields.npz")["speed"].tolist() == [0.1]
