@@ -31,6 +31,7 @@ from lubfric.models.quick import (
     map_coarsening_at_rest,
     numbers_for_features,
     on_cells_along_x,
+    quick_answer_of,
     solve_at_rest,
     solve_moving,
     solve_on_long_cells,
@@ -286,6 +287,18 @@ def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(monkeyp
     assert "the film is thick" in quick_result.uncertainty.text
     thinner = point(LOOSE_PAPER, 0.05, "quick")
     assert "the film is thick" not in thinner.uncertainty.text and "long cells" in thinner.decision.text
+
+
+@pytest.mark.parametrize("speed", [0.11, 0.2])
+def test_a_film_a_little_thicker_than_in_all_solved_cases_has_the_smaller_error_of_both_models(speed):
+    """So the interval has no step where the answer changes from one model to the other."""
+    quick = point(LOOSE_PAPER, speed, "quick")
+    paper = point(LOOSE_PAPER, speed, "paper")
+    prepared = lubfric.prepare(LOOSE_PAPER)
+    on_long_cells = quick_answer_of(prepared, speed, solve_on_long_cells(prepared, speed))
+    errors = [np.mean(paper.uncertainty.model_sides), np.mean(on_long_cells.errors.model_error)]
+    assert np.mean(quick.uncertainty.model_sides) == pytest.approx(min(errors), rel=1e-6)
+    assert (errors[0] < errors[1]) == (speed == 0.2)
 
 
 def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():

@@ -268,10 +268,12 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[Sides, tuple[str, ...]
 
 
 def _largest_film_load_ratio(balanced: BalancedSample, by_equation: Sides) -> float:
-    """Return the `largest_film_load_ratio` of ``balanced``; 1 where its model-form error is not known."""
+    """Return the `largest_film_load_ratio` of ``balanced``; 1 where its model-form error is not known, and where Eq. (8)
+    takes a film that arrives for none (`starved_error`)."""
     balance = balanced.corrected_balance
     sq = balanced.prepared.surface.sq
-    if math.isnan(max(by_equation)) or not sq > 0:
+    is_neglected = balance.film is None and max(by_equation) > 0
+    if math.isnan(max(by_equation)) or is_neglected or not sq > 0:
         return 1.0
     ratio = math.inf if balance.film is None else balance.film.central_film / sq
     return largest_film_load_ratio(ratio, balance.contact_load / balanced.prepared.scene.bodies.load)

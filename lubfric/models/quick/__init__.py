@@ -21,4 +21,4 @@ from .long_cells import (
     solve_moving,
 )
 from .quick_model import QuickModel
-from .strips_on_long_cells import solve_on_long_cells
+from .strips_on_long_cells import quick_answer_of, solve_on_long_cells
