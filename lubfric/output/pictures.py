@@ -50,6 +50,8 @@ LONE = 2.0  # factor between a lone speed and the ends of its axis
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
 BESIDE_HEIGHTS = (2.6, 4.5)  # inch: of a map and a bearing curve beside each other
 SURFACE_PAD = 0.05  # inch around a map and its bearing curve
+LENGTH_ROUNDING = 1e-9  # of the length of a map
+LEAST_ROWS = 32  # along y, of a map of which a part along x is drawn: fewer show too little of it
 QUANTILES = 401  # of the heights, of a bearing curve
 LETTERS_OF_INCH = 13.0  # of the text below a curve, in an inch of its width
 
@@ -342,6 +344,15 @@ def _list_assumptions(figure: Figure, violations: list[Sequence[Any]]) -> None:
     figure.supxlabel(text, fontsize="small", color=figures.GREY)
 
 
+def _drawn_along_motion(counts: tuple[int, int], spacing: tuple[float, float]) -> int:
+    """Return how many of ``counts`` points along x are drawn of a map [m]: all, or of one that is too long along x to be
+    drawn to scale, and has `LEAST_ROWS`, as many as can."""
+    if counts[1] < LEAST_ROWS:
+        return counts[0]
+    longest = figures.SLENDER_MAP * counts[1] * spacing[1] / spacing[0]
+    return min(counts[0], int(longest * (1 - LENGTH_ROUNDING)))
+
+
 @figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
     """Draw the map that the scene of ``prepared`` has, to scale: of generated strips the first, as two of them beside
@@ -359,7 +370,9 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     if is_mirrored:
         whole = "both maps with their mirror images" if others else "the measured part; its mirror image continues it"
     x, y = (np.arange(count) * step for count, step in zip(drawn.shape, drawn.spacing))
+    whole_x = x
     part = drawn_part(x, y, 0)
+    x = x[: _drawn_along_motion((x.size, y[part].size), drawn.spacing)]
     higher = np.linspace(0.0, 1.0, QUANTILES)
     (width, height) = size_of_maps(x, y[part], 1)
     from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -375,7 +388,9 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
         above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     drawn.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_xlabel("x (µm), along the motion")
-    shown = part_in_words(y, part, whole).removeprefix("; ") or (whole if is_one_of_strips or is_mirrored else "")
+    texts = [part_in_words(whole_x, slice(x.size), f"{whole} along x")] if x.size < whole_x.size else []
+    texts += [part_in_words(y, part, whole)]
+    shown = "".join(texts).removeprefix("; ") or (whole if is_one_of_strips or is_mirrored else "")
     above.set_title("\n".join(filter(None, (above.get_title(), shown))), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)

@@ -51,6 +51,24 @@ def test_no_empty_band_is_above_a_wide_map(tmp_path, shape, lines):
     assert np.argmax(above < 0.5) < lines * 25
 
 
+@pytest.mark.parametrize(
+    "shape, drawn, title",
+    [((400, 40), (159, 40), "159 of 400 µm of the map along x"), ((400, 120), (400, 120), "Sq")]
+    + [((400, 16), (400, 16), "Sq"), ((40, 400), (40, 81), "81 of 400 µm of the map")],
+)
+def test_a_part_of_a_long_map_is_drawn_to_scale(tmp_path, monkeypatch, shape, drawn, title):
+    """Four times as long along the motion as along the line, at most; a map of few lines is drawn whole."""
+    figures: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda self, *a, **k: figures.append(self))
+    surface = {"correlation_length": 3e-6}
+    scene = PAPER.with_(contact={"shape": shape, "spacing": 1e-6}, surface=surface, numerics={"sampling": "patch"})
+    plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
+    above = figures[0].axes[0]
+    assert above.images[0].get_array().shape == drawn[::-1]
+    assert above.get_title().splitlines()[-1].startswith(title)
+    assert (above.get_aspect() == 1) == ("to scale" not in above.get_ylabel()) == (shape[1] != 16)
+
+
 def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():
     x = np.linspace(-50e-6, 50e-6, 8)
     numbers = {"speed": 0.0123456, "contact_load": 381.0, "film_load": 419.0}
