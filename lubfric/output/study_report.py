@@ -20,7 +20,7 @@ from .status import status_of_study, study_in_words
 from .study_inputs import common_inputs, range_in_a_line
 from .study_points import effects_at
 from .study_tables import MOST_ROWS, folded_details, table_of_points
-from .study_warnings import counts_of_warnings, numbered_warnings, why_no_intervals
+from .study_warnings import counts_of_warnings, notes_without_warning, numbered_warnings, why_no_intervals
 
 CAPTION = "The results of the study"
 
@@ -31,7 +31,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     import scipy
 
     warnings = numbered_warnings(result)
-    notes = [each.text_without_head for each in result.gathered if each.is_note]
+    notes = notes_without_warning(result)
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = (

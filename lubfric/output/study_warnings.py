@@ -1,5 +1,7 @@
 """The warnings and notes of a study, with the numbers of their points."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..models.shared import GatheredTexts, first_sentence, sentence
@@ -15,9 +17,28 @@ ALL_IN_TABLE = " The column validity of study.csv has all of them."
 
 def numbered_warnings(result: StudyResult) -> list[GatheredTexts]:
     """Return the warnings of a study, one for all points that share the reason: doubts about its plain numbers, which
-    are of no point, then the assumptions that do not hold somewhere."""
+    are of no point, then the assumptions that do not hold somewhere, with the points where that is a note."""
     warnings = [GatheredTexts(statement=sentence(note)) for note in result.plan.notes]
-    return [*warnings, *(each for each in result.gathered if not each.is_note)]
+    for each in result.gathered:
+        if not each.is_note:
+            places = [f" {note.place} this is a note." for note in result.gathered if _is_note_of(note, each)]
+            warnings.append(replace(each, statement="".join((each.statement, *places))))
+    return warnings
+
+
+def notes_without_warning(result: StudyResult) -> list[str]:
+    """Return the notes of a study, but those that `numbered_warnings` names, as the same is a warning elsewhere."""
+    notes = [each for each in result.gathered if each.is_note]
+    return [note.text_without_head for note in notes if not any(_is_note_of(note, each) for each in result.gathered)]
+
+
+def _is_note_of(note: GatheredTexts, warning: GatheredTexts) -> bool:
+    """Return whether a ``note`` states of other points what a ``warning`` does."""
+    violation = note.violation
+    other = warning.violation
+    if violation is None or other is None or not note.is_note or warning.is_note:
+        return False
+    return violation.assumption == other.assumption and violation.what == other.what
 
 
 def counts_of_warnings(result: StudyResult) -> str:

@@ -513,6 +513,20 @@ def test_console_report_and_table_count_the_same_warnings_and_notes(tmp_path, mo
     assert (counts in page) == bool(warnings or notes)
 
 
+def test_a_note_that_is_a_warning_at_another_point_is_in_its_text_alone():
+    """A note of its own has its list."""
+    result = numbered({"bodies.load": [1.0, 2.0, 3.0]}, lambda scene: 0.1)
+    (other,) = violations_by_numerical_error(0.07, 0.05, "less")
+    at_points = ((SLIP,), (replace(SLIP, is_note=True),), (other,))
+    result = replace(result, violations=violations_at(result.status.shape, *at_points))
+    (warning,) = study_warnings.numbered_warnings(result)
+    assert warning.numbers == (1,) and warning.text.endswith(" At point 2 this is a note.")
+    (note,) = study_warnings.notes_without_warning(result)
+    assert note.startswith("At point 3: estimated numerical error")
+    page = study_report.study_page(result, {}, []).decode()
+    assert page.count("slip is 3") == 1 and "Notes (1)" in page
+
+
 def test_points_that_share_a_reason_are_one_line_with_the_worst():
     """On the console, and numbered in the report, where each row of the table has the numbers of its warnings."""
     result = numbered({"bodies.load": np.linspace(1.0, 2.0, 40).tolist()}, lambda scene: 0.1)
