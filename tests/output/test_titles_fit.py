@@ -54,7 +54,7 @@ def test_no_empty_band_is_above_a_wide_map(tmp_path, shape, lines):
 @pytest.mark.parametrize(
     "shape, drawn, title",
     [((400, 40), (159, 40), "159 of 400 µm of the map along x"), ((400, 120), (400, 120), "Sq")]
-    + [((400, 16), (400, 16), "Sq"), ((40, 400), (40, 81), "81 of 400 µm of the map")],
+    + [((400, 16), (400, 16), "Sq"), ((40, 400), (40, 79), "79 of 400 µm of the map")],
 )
 def test_a_part_of_a_long_map_is_drawn_to_scale(tmp_path, monkeypatch, shape, drawn, title):
     """Four times as long along the motion as along the line, at most; a map of few lines is drawn whole."""
