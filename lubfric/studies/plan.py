@@ -18,6 +18,7 @@ from ..errors import InputError
 from ..quantities import KEYS
 from ..samples import is_measured, whole_maps
 from ..scene import Scene, builtin_scenes, load_scene, read_toml, speeds_of_range
+from ..units import printed
 from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
 from .distributions import DEVIATION, Normal, unit_in
 from .explain import explain, warnings_of
@@ -284,8 +285,9 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     operating_points: Any = points
     how_drawn = ""
     if "sample" in table:
-        how_drawn = _drawn_in_words(table["sample"])
-        (keys, drawn) = _sampled(table["sample"], path.name)
+        options = table["sample"]
+        (keys, drawn) = _sampled(dict(options) if isinstance(options, dict) else options, path.name)
+        how_drawn = _drawn_in_words(options)
         if SPEED in keys:
             if points is not None or "points" in table:
                 message = f"[sample] of {path.name} has speeds, and points has them too"
@@ -307,7 +309,19 @@ def _drawn_in_words(table: Any) -> str:
     """Return how [sample] of a study file draws its points, as text."""
     given = table if isinstance(table, dict) else {}
     how = "independent random points" if given.get("sampler") == "random" else "a scrambled Sobol sequence"
-    return f"{given.get('count')} sets of values drawn as {how} with the seed {given.get('seed', 0)}"
+    seeded = f"{given.get('count')} sets of values drawn as {how} with the seed {given.get('seed', 0)}"
+    ranges = _flat({key: part for key, part in given.items() if key not in SAMPLE_KEYS}, _is_value)
+    return "; ".join((seeded, *(_normal_in_words(key, part) for key, part in ranges.items() if "mean" in part)))
+
+
+def _normal_in_words(key: str, given: dict[str, Any]) -> str:
+    """Return the normal distribution that [sample] has ``given`` for a ``key``, as text."""
+    unit = printed("m/s" if key == SPEED else unit_of(key))
+    words = {name: value if isinstance(value, str) else f"{value:g} {unit}".strip() for name, value in given.items()}
+    limits = " ".join(f"{word} {words[end]}" for end, word in (("low", "from"), ("high", "to")) if end in words)
+    kind = "lognormal" if given.get("scale") == "log" else "normal"
+    text = f"{key} of a {kind} distribution with the mean {words['mean']} and the standard deviation {words[DEVIATION]}"
+    return f"{text}, cut off {limits}" if limits else text
 
 
 def _flat_rows(rows: Any) -> Any:
@@ -363,7 +377,7 @@ def _sampled(table: Any, file: str) -> tuple[tuple[str, ...], list[Any]]:
     options: dict[str, Any] = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
         raise InputError(f"[sample] of {file} needs count, the number of points")
-    ranges = _flat(table, lambda value: not isinstance(value, dict) or not OF_SAMPLED.isdisjoint(value))
+    ranges = _flat(table, _is_value)
     if ENTRAINMENT in ranges:
         _add(ranges, SPEED, ranges.pop(ENTRAINMENT))
     distributions = {key: _distribution(key, given) for key, given in ranges.items()}
@@ -374,6 +388,11 @@ def _sampled(table: Any, file: str) -> tuple[tuple[str, ...], list[Any]]:
             for value in (min(column), max(column)):
                 _check_drawn(key, name, value)
     return (*ranges,), drawn
+
+
+def _is_value(part: Any) -> bool:
+    """Return whether a ``part`` of [sample] is what it has for a key, not a table of keys of a section."""
+    return not isinstance(part, dict) or not OF_SAMPLED.isdisjoint(part)
 
 
 def _distribution(key: str, given: Any) -> Between | Normal:

@@ -91,6 +91,10 @@ def test_normal_values_and_entrainment_speeds_are_sampled(tmp_path):
     }
     drawn = dict(zip(ranges, zip(*lubfric.sample(ranges.values(), 64, seed=3))))
     assert plan.point_speeds == drawn["speed"]
+    assert plan.drawn.partition("; ")[2] == (
+        "bodies.load of a normal distribution with the mean 5 N and the standard deviation 2 N, cut off from 1 N; "
+        "lubricant.temperature_celsius of a normal distribution with the mean 60 °C and the standard deviation 4 K"
+    )
     for key in ("bodies.load", "lubricant.temperature_celsius"):
         np.testing.assert_allclose(plan.coords[key][1], drawn[key])
     (tmp_path / "study.toml").write_text(head + load.replace("2.0", "4.0") + " }\n", encoding="utf-8")
