@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..models import title_of
-from ..models.shared import UNKNOWN_SIDES, Decision
+from ..models.shared import UNKNOWN_SIDES, Decision, percent
 from ..quantities import COLUMNS
 from ..scene import BOUNDARY_FILM
 from ..units import worded
@@ -103,7 +103,7 @@ def _with_relative_errors(uncertainties: Sequence[Uncertainty]) -> list[Uncertai
 
 def _percents(shares: Sequence[float]) -> str:
     """Return the range of ``shares`` as text: "0.74 %", or "1.4 to 12 %"."""
-    ends = dict.fromkeys(f"{float(f'{100 * share:.2g}'):g}" for share in (min(shares), max(shares)))
+    ends = dict.fromkeys(percent(share).removesuffix(" %") for share in (min(shares), max(shares)))
     return f"{' to '.join(ends)} %"
 
 

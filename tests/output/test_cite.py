@@ -50,9 +50,10 @@ def test_a_paragraph_to_quote_has_what_was_used():
         50 * (each.interval[1] - each.interval[0]) / each.coefficient for each in (p.uncertainty for p in curve.points)
     )
     assert text.endswith(f"; half its width is {low:.2g} to {high:.2g} % of f.")
-    for part, name in (("numerical error", "numerical"), ("sampling error", "sampling")):
-        ends = sorted(100 * each.budget[name] for each in (p.uncertainty for p in curve.points))
-        assert f"the {part} ({ends[0]:.2g} to {ends[1]:.2g} %)" in text
+    (low, high) = sorted(100 * each.budget["numerical"] for each in (p.uncertainty for p in curve.points))
+    (_, largest) = sorted(100 * each.budget["sampling"] for each in (p.uncertainty for p in curve.points))
+    assert f"the numerical error ({low:.2g} to {high:.2g} %)" in text
+    assert f"the sampling error (< 0.001 to {largest:.2g} %)" in text
     known = r"the model-form error \(.* %\) and the assumed range of the boundary film, half to twice 20 nm \([\d.]+"
     assert re.search(known, text) and "a method of lubfric" in text and "Hu and Zhu 2000" in text
     assert "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
