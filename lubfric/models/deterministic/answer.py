@@ -93,8 +93,8 @@ BIASED = "a single short patch also has a bias: near the lift-off speed f is som
 # Where a local peak of the film pressure is, by whether asperities carry load. The picture of the contact is of another
 # solve, with the contacts.
 FILM_OF_STRIPS = {
-    True: "of the film beside or within asperity contacts, above the boundary film, on the cells of the solve of f",
-    False: "of the film over the roughness, on the cells of the solve of f",
+    True: "of single cells of the film, next to asperity contacts",
+    False: "of single cells of the film over the roughness",
 }
 # What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of
 # the asperity load.

@@ -251,7 +251,7 @@ def _spike(scene: Scene, peak: float, limit: float, place: str) -> tuple[list[st
     hertz_peak = peak_hertz_pressure(scene)
     if peak > SPIKE * hertz_peak:
         where = place or "of the smooth film"
-        facts.append(f"this is a local peak {where}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa")
+        facts.append(f"this is a local peak {where}; the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa")
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         facts.append("a constant density causes such a spike")
         advice.append("give lubricant.density_law = 'dowson-higginson', which lowers the peak")
