@@ -7,6 +7,7 @@ import numpy as np
 
 from ..models.deterministic import FLOOR
 from ..quantities import counted
+from ..units import plain_number
 
 # What a smallest film of `FLOOR` is.
 GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
@@ -45,7 +46,7 @@ def films_at_limit(loads: Mapping[str, np.ndarray]) -> str:
     shares = shares[shares > LEAST_AT_LIMIT]
     if not shares.size:
         return ""
-    ends = " to ".join(dict.fromkeys(f"{100 * end:.2g}" for end in (shares.min(), shares.max())))
+    ends = " to ".join(dict.fromkeys(plain_number(100 * float(end), digits=2) for end in (shares.min(), shares.max())))
     where = f" at {shares.size} of {counted(contact.size, 'points')}" if contact.size > 1 else ""
     return (
         f"Films sheared at their limiting stress carry {ends} % of the load{where}; the asperity load ratio does not "

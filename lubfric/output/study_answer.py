@@ -23,7 +23,7 @@ from ..studies import (
     points_are_designs,
     why_not_separated,
 )
-from ..units import converted, printed, unit_of_largest, with_interval
+from ..units import converted, plain_number, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
 from .status import omitted_heat_in_words, status_of_study
 from .study_points import effects_at, error_in_words, parts_of_error
@@ -107,7 +107,7 @@ def _effects_in_words(effects: dict[str, MainEffect], symbol: str) -> str:
     trends = {-1: [f"on average {symbol} falls with it"], 0: [], 1: [f"on average {symbol} rises with it"]}
     words = []
     for key, effect in effects.items():
-        low, high = (f"{100 * end:.2g}" if end >= LEAST_STATED_SHARE else "0" for end in effect.interval)
+        low, high = (plain_number(100 * end, digits=2) if end >= LEAST_STATED_SHARE else "0" for end in effect.interval)
         known = [f"{low} to {high} %"] if np.isfinite(effect.interval).all() and low != high else []
         details = ", ".join([*known, *trends[effect.slope]])
         words.append(f"{name_of(key)} {percent(effect.share)}" + (f" ({details})" if details else ""))

@@ -269,6 +269,15 @@ def test_a_range_that_moves_one_design_alone_is_not_left_out():
     assert len(one.rivals) == 1
 
 
+def test_parts_of_the_variance_are_plain_percents():
+    """Where errors of f are as wide as f, an input may explain nearly all of it."""
+    rng = np.random.default_rng(1)
+    f = F * np.exp(0.02 * rng.standard_normal(F.shape))
+    (line, *_) = (text for text in study_answer.answer_lines(made(f, 0.9 * f)) if "ln f" in text)
+    ends = re.findall(r"\(([\d.]+) to ([\d.e+]+) %", line)
+    assert ends and all("e" not in end for pair in ends for end in pair)
+
+
 def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhere():
     f = F.copy()
     f[1, :, 0, :] = 0.01
