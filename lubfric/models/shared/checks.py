@@ -221,7 +221,9 @@ def _violation_between_asperities(scene: Scene, peak: float, place: str) -> Viol
     if more and scene.lubricant.has_unlimited_stress:
         bounds = ["f_b times the pressure bounds the shear stress of the film"]
     if scene.bodies.hardness is None:
-        advice.append("give bodies.hardness, because elastic asperities cause this pressure")
+        advice.append(
+            "give bodies.hardness: without this plastic limit the asperities stay elastic, which causes the peak"
+        )
     else:
         advice.append("check the heights and the spacing of [surface], and bodies.hardness")
     return Violation(
