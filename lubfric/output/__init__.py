@@ -1,7 +1,7 @@
 """Tables, pictures, reports and the command line."""
 
 from .command_line import main, parser
-from .commands import read_record
+from .commands import read_record, wrapped
 from .contact_pictures import DrawnContact, drawn_contact, plot_contact
 from .describe import describe_scene, described_scene, estimate_scene
 from .fields import fields_bytes, grid_bytes, write_moments

@@ -65,6 +65,10 @@ INTERRUPTED = 130
 TERMINATED = 143
 _CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
 
+# Blanks at which no line is broken: before a percent sign, and beside an equals sign; and what stands for them meanwhile.
+BOUND = re.compile(r" (?=%)| (?== )|(?<= =) ")
+KEPT_BLANK = "\N{NO-BREAK SPACE}"
+
 # Choices, for lines that can be read.
 SAY_EVERY = 1.0  # s between two lines of progress
 PROGRESS_SECONDS = 60.0  # s between two lines on how far a point is, where no terminal shows it on one line
@@ -83,9 +87,13 @@ def wrapped(text: str, stream: Any) -> str:
         fitting = [line]
         if len(line) > width:
             fitting = textwrap.wrap(
-                line, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+                BOUND.sub(KEPT_BLANK, line),
+                width,
+                subsequent_indent=indent,
+                break_long_words=False,
+                break_on_hyphens=False,
             )
-        lines += fitting
+        lines += [each.replace(KEPT_BLANK, " ") for each in fitting]
     return "\n".join(lines)
 
 

@@ -46,7 +46,8 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
     if math.isfinite(mean.coefficient_of_losses):
         sentences.append(
-            f"Weighted by load and sliding speed, as the losses of sliding are, it is {mean.coefficient_of_losses:.3g}."
+            "The mean weighted by load and sliding speed, which gives the losses by sliding, is "
+            f"{mean.coefficient_of_losses:.3g}."
         )
     if result.model_form_unknown:
         sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))

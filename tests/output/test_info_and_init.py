@@ -12,7 +12,7 @@ from small_study import SCENE as SMALL_SCENE
 
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
-from lubfric.output import describe_scene, described_scene, main
+from lubfric.output import describe_scene, described_scene, main, wrapped
 from lubfric.output.inputs_as_given import inputs_as_given as input_tables
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 
@@ -78,6 +78,15 @@ def test_no_line_of_info_is_wider_than_the_terminal(width, monkeypatch, capsys):
     whole = capsys.readouterr().out
     assert whole.split() == broken.split() or width < 100
     assert max(map(len, whole.splitlines())) > 150
+
+
+@pytest.mark.parametrize("width", range(40, 60))
+def test_no_line_ends_before_a_percent_sign_or_beside_an_equals_sign(width, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(width))
+    text = "f is 0.05 (0.04 to 0.06 at 95 %), sampling 12 %, F_C = 1.5 N and a long remainder: 7 % of it, U = 2 m/s"
+    broken = wrapped(text, None).splitlines()
+    assert len(broken) > 1 and " ".join(line.strip() for line in broken) == text
+    assert not any(re.search(r"(=|F_C|U)$", line) or re.match(r" *[%=]", line) for line in broken)
 
 
 def test_info_refuses_no_newtonian_oil_between_asperities_that_friction_answers():
