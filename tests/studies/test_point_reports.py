@@ -89,5 +89,5 @@ def test_command_writes_f_and_power_of_each_point(tmp_path, capsys):
         assert lines[number - 1].startswith(start[:-1]) and f"P = {power} (" in lines[number - 1]
         is_unknown = math.isnan(point.uncertainty.interval[0])
         assert is_unknown == ("(95 % interval not known), P" in lines[number - 1])
-    stated = r" \(wall-clock time of the point [\d.]+ s, of the study so far \d+ s(, about [\d.]+ s left)?\)$"
+    stated = r" \(wall-clock time of the point [\d.]+ s, of the study so far \d+ s(, [a-z ]+[\d.]+ s left)?\)$"
     assert [bool(re.search(stated, line)[1]) for line in lines] == [True, False]
