@@ -642,11 +642,10 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
     assert 0 < max(seconds["paper"], seconds["quick"]) < seconds["deterministic"]
     # long cells do not reach the tolerance of 5 %: "auto" solves none there
     assert seconds["auto"] == pytest.approx(seconds["deterministic"])
-    loose = {}
-    for model in ("auto", "deterministic"):
-        prepared = lubfric.prepare(PAPER.with_(numerics={"model": model, "model_tolerance": 0.2}))
-        loose[model] = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
-    assert loose["auto"] == pytest.approx(loose["deterministic"] + seconds["quick"])
+    # with a wide tolerance the strips on long cells suffice, after load sharing, which does not
+    loose = lubfric.prepare(PAPER.with_(numerics={"model": "auto", "model_tolerance": 0.2}))
+    work = estimated_work_of_point(loose.scene, loose.sample, loose.surface, 0.03)
+    assert work.seconds == pytest.approx(seconds["paper"] + seconds["quick"])
 
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
