@@ -17,6 +17,7 @@ from .._base import Renamed, Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import (
+    PARTS,
     UNCERTAINTY_COLUMNS,
     MethodUse,
     Uncertainty,
@@ -292,13 +293,23 @@ class StudyResult(Renamed, Shown):
         f = np.ravel(self["coefficient"])
         ends = np.stack([np.ravel(self["interval_low"]), np.ravel(self["interval_high"])], axis=-1).tolist()
         scene = self.plan.scene
+        sides: dict[str, Any] = {
+            part.sides: [np.ravel(self.columns[f"{COLUMN_OF_ERROR[part.quantity]}_{end}"]) for end in ("low", "high")]
+            for part in PARTS.values()
+            if part.sides and f"{COLUMN_OF_ERROR[part.quantity]}_low" in self.columns
+        }
+
+        def errors_of(i: int) -> dict[str, Any]:
+            both = {name: (low[i].item(), high[i].item()) for name, (low, high) in sides.items()}
+            return {name: values[i].item() for name, values in columns.items()} | both
+
         return [
             Uncertainty(
                 coefficient=float(f[i]),
                 interval=(ends[i][0], ends[i][1]),
                 missing_input=next(iter(inputs_not_given(scene)), ""),
                 inputs_in_interval=tuple(name for name, *_ in scene.ranges),
-                **{name: values[i].item() for name, values in columns.items()},
+                **errors_of(i),
             )
             for i in np.flatnonzero(np.isfinite(f)).tolist()
         ]

@@ -101,6 +101,9 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")
     assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 2 to 3 N" in study
     assert "by its load-sharing model." in study and "; 2 points." in study
+    one = lubfric.study(KNOWN.with_(numerics={"sampling": "strips", "sampling_tolerance": 0.3}), {}, [0.03])
+    sides = [one[f"model_error_{end}"].item() for end in ("low", "high")]
+    assert f"the model-form error ({50 * sum(sides):.2g} %)" in one.cite("methods") and sides[0] != sides[1]
     by_any = cited([], "methods", models=["paper", "quick", "deterministic"])
     assert "load-sharing model, quick model or deterministic model, the cheapest" in by_any
     assert "docs/" not in estimated + study
