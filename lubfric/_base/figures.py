@@ -290,11 +290,15 @@ def _key_entries(axes: Axes) -> tuple[list[Any], list[str]]:
 
 
 def _in_grey(handle: Any) -> Any:
-    """Return a copy of a ``handle`` of a key in grey; one of several parts unchanged."""
+    """Return a copy of a ``handle`` of a key in grey, of a band as opaque as it is; one of several parts unchanged."""
+    from matplotlib.collections import Collection
+    from matplotlib.colors import to_rgb
+
     if not hasattr(handle, "set_color"):
         return handle
     sample = copy(handle)
-    sample.set_color(GREY)
+    opacity = float(np.asarray(handle.get_facecolor())[0, -1]) if isinstance(handle, Collection) else 1.0
+    sample.set_color((*to_rgb(GREY), opacity))
     return sample
 
 

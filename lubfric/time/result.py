@@ -13,6 +13,7 @@ from ..estimate import (
     CUT_AT_ZERO,
     NAME_OF_INTERVAL,
     MethodUse,
+    Uncertainty,
     UncertaintyCurve,
     cited,
     inputs_to_quote,
@@ -20,6 +21,7 @@ from ..estimate import (
 )
 from ..models.load_sharing import OF_ROLLING, STATIONARY_ROLLING_RATIO, largest_film_load_ratio
 from ..models.shared import (
+    UNKNOWN_SIDES,
     GatheredTexts,
     Prepared,
     Sliding,
@@ -33,7 +35,7 @@ from ..models.shared import (
     percent,
     student,
 )
-from ..quantities import OF_MOMENT, axis_label
+from ..quantities import OF_MOMENT, axis_label, counted
 from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
@@ -51,6 +53,10 @@ NOT_IN = (
     "see the change"
 )
 TINY = 1e-30  # no f is divided by less; a choice: any number below all f does
+
+# Outputs of a run that has a mean: a choice, one may be far from it.
+FEWEST_OF_MEAN = 2
+
 # Parts of the uncertainty budget (`lubfric.estimate.PARTS`) that a run in time does not have: the effect of an input
 # that the scene does not give is not computed.
 PARTS_NOT_IN_TIME = ("not given",)
@@ -136,6 +142,7 @@ class TransientResult(Renamed, Shown):
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
+    model : that answers, by its `lubfric.models.Model.name`
     methods : names of the published methods used; ``cite()`` gives the publications
     stated_inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
@@ -158,14 +165,33 @@ class TransientResult(Renamed, Shown):
     renewal: float = math.nan
     requested: np.ndarray | tuple[float, ...] = ()
     model_form_unknown: str = ""
+    model: str = ""
     methods: tuple[str, ...] = ()
     stated_inputs: tuple[str, ...] = ()
     most_rolling_ratio: float = STATIONARY_ROLLING_RATIO
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this run, the model's first: one a line, or with ``format``
-        "bibtex" as BibTeX entries."""
-        return cited(self.methods, format, inputs=self.stated_inputs)
+        "bibtex" as BibTeX entries, or "methods" as a paragraph, with the interval of the mean of f."""
+        models = [self.model] if self.model else []
+        outputs = counted(self.time.size, "outputs")
+        errors = [] if self.time.size < FEWEST_OF_MEAN else [self._error_of_mean()]
+        return cited(self.methods, format, inputs=(*self.stated_inputs, outputs), models=models, errors=errors)
+
+    def _error_of_mean(self) -> Uncertainty:
+        """Return what is known about the error of the mean of f over the run."""
+        mean = self.average()
+        parts = {name: max(sides) for name, sides in mean.budget.items()}
+        return Uncertainty(
+            coefficient=mean.coefficient,
+            interval=mean.interval,
+            numerical=parts.get("numerical", math.nan),
+            sampling=mean.sampling,
+            model=parts.get("model-form", math.nan),
+            model_sides=mean.budget.get("model-form", UNKNOWN_SIDES),
+            inputs=parts.get("input", 0.0),
+            inputs_in_interval=(BOUNDARY_FRICTION_KEY,),
+        )
 
     @property
     def refused_outputs(self) -> int:
@@ -543,6 +569,7 @@ def collect(
         most_rolling_ratio=ratio,
         requested=plan.times,
         model_form_unknown=model.model_form_unknown,
+        model=run_model_of(prepared.scene).model.name,
         methods=methods_of(prepared, _use(prepared, columns)),
         stated_inputs=inputs_to_quote(
             prepared.scene,
@@ -595,8 +622,8 @@ def counts_in_average(c: dict[str, np.ndarray]) -> np.ndarray:
     """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` that count in the average of f: the surfaces
     move, and f comes from sliding (`is_by_sliding`), unless it does so at no time."""
     moving = in_motion(c)
-    counted = moving & is_by_sliding(c)
-    return counted if counted.any() else moving
+    slid = moving & is_by_sliding(c)
+    return slid if slid.any() else moving
 
 
 def rolls(c: dict[str, np.ndarray]) -> np.ndarray:

@@ -187,6 +187,17 @@ def test_a_run_in_time_cites_the_model_that_was_solved():
     by_model = [lubfric.transient(PATCH.with_(transient=plan, numerics={"model": name})) for name in ("paper", "quick")]
     assert by_model[0].coefficient.tobytes() == by_model[1].coefficient.tobytes()
     assert by_model[0].cite() == by_model[1].cite()
+    paragraph = by_model[1].cite("methods")
+    assert "by its load-sharing model." in paragraph and f"; {by_model[1].time.size} outputs." in paragraph
+    assert "interval" not in paragraph  # a patch: without the error of the sample
+
+
+def test_a_run_in_time_quotes_the_width_of_the_interval_of_its_mean():
+    short = {"shape": (64, 16), "spacing": 1.4e-6}
+    run = lubfric.transient(paper_scene(contact=short, transient=lubfric.Transient(1e-5, outputs=1)))
+    mean = run.average()
+    (quoted,) = re.findall(r"half its width is ([0-9.]+) % of f", run.cite("methods"))
+    assert float(quoted) == pytest.approx(100 * (mean.interval[1] - mean.interval[0]) / 2 / mean.coefficient, rel=0.02)
 
 
 PATCH = paper_scene(contact={"shape": (64, 48), "spacing": 1.4e-6}, numerics={"sampling": "patch", "tolerance": 0.05})
