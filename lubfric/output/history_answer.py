@@ -96,7 +96,7 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
 
 
 def _why_to_zero(scene: Scene, result: TransientResult) -> str:
-    """Return at which outputs the interval of f reaches 0, by which part of its error, and what narrows it, in
+    """Return at which outputs the interval of f contains 0, by which part of its error, and what narrows it, in
     sentences; "" where it does so nowhere."""
     reached = intervals_to_zero(scene, result)
     if not reached.outputs:
@@ -109,8 +109,8 @@ def _why_to_zero(scene: Scene, result: TransientResult) -> str:
     )
     ways = f" To narrow it, {', or '.join(reached.ways)}." if reached.ways else ""
     return (
-        f"At {counted(len(reached.outputs), 'outputs')}, {place}, the interval of f reaches 0, so f there is known to its "
-        f"order of magnitude at best; the largest part of its error is {causes}.{ways}"
+        f"At {counted(len(reached.outputs), 'outputs')}, {place}, the interval of f contains 0, so f there is known to "
+        f"its order of magnitude at best; the largest part of its error is {causes}.{ways}"
     )
 
 
@@ -196,8 +196,8 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
         return f"{answers} Heat causes half or more of its model-form error, which no steady point reduces."
     where = "" if np.array_equal(cool, wide) else f", at the {counted(int(cool.sum()), 'outputs')} less changed by heat"
     return (
-        f"{answers} For a narrower interval of a moment{where}, solve a steady point with its values (a scene without "
-        "[transient])."
+        f"{answers} For a narrower interval of a moment{where}, solve a steady point with its values and "
+        "numerics.model = 'deterministic' (a scene without [transient])."
     )
 
 

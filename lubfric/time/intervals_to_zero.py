@@ -1,4 +1,4 @@
-"""Why the interval of f reaches 0 at some times of a run: the part of its error that takes most of f away there."""
+"""Why the interval of f contains 0 at some times of a run: the part of its error that takes most of f away there."""
 
 import math
 from collections import Counter
@@ -9,7 +9,7 @@ import numpy as np
 from ..models.load_sharing import load_sharing_error_parts
 from ..models.shared import BY_HEAT
 from ..scene import Scene, has_moving_roughness
-from .result import TransientResult, counts_in_average, errors_in_time, sense_of_friction_over_time
+from .result import TransientResult, errors_in_time, sense_of_friction_over_time
 from .scene_in_time import scene_at
 
 # The parts of the error of f that may take it to 0, as text.
@@ -22,19 +22,18 @@ BY_FLANKS = "model-form: pressure on the flanks of moving roughness"
 BY_CONTACT = "model-form: the friction in contact"
 BY_HEAT_OF_MODEL = f"model-form: {BY_HEAT}"
 
-# What narrows the interval where each of these parts is the largest, as text.
-STEADY_DETERMINISTIC = "solve a steady point with the values of the moment and numerics.model = 'deterministic'"
+# What narrows the interval where each of these parts is the largest, as text; of the model-form error the notes of a
+# run say it.
 WAYS_FROM_ZERO = {
     BY_SAMPLING: "set a smaller numerics.sampling_tolerance",
     BY_INPUT: "give a measured boundary friction coefficient",
     BY_NUMERICAL: "set a smaller numerics.film_tolerance",
-    BY_HEAT_OF_MODEL: "",
 }
 
 
 @dataclass(frozen=True, kw_only=True)
 class IntervalsToZero:
-    """Where and why the interval of f of a run reaches 0.
+    """Where and why the interval of f of a run contains 0.
 
     Attributes
     ----------
@@ -48,19 +47,15 @@ class IntervalsToZero:
     @property
     def ways(self) -> tuple[str, ...]:
         """What narrows the intervals, each once, as text."""
-        return tuple(
-            dict.fromkeys(filter(None, (WAYS_FROM_ZERO.get(cause, STEADY_DETERMINISTIC) for cause, _ in self.causes)))
-        )
+        return tuple(WAYS_FROM_ZERO[cause] for cause, _ in self.causes if cause in WAYS_FROM_ZERO)
 
 
 def intervals_to_zero(scene: Scene, result: TransientResult) -> IntervalsToZero:
-    """Return at which outputs of the run of ``scene`` that slide the interval of f reaches 0 from f, and by which part
-    of its error."""
+    """Return at which outputs of the run of ``scene`` the interval of f contains 0, also where f is negative or that of
+    rolling resistance, and by which part of its error."""
     f = result.coefficient
     low, high = result.uncertainty.interval.T
-    reaches = counts_in_average(result.columns) & (result.sliding_speed != 0)
-    reaches &= np.where(f >= 0, low <= 0, high >= 0)
-    outputs = tuple(np.flatnonzero(reaches).tolist())
+    outputs = tuple(np.flatnonzero((low <= 0) & (high >= 0)).tolist())
     sides = errors_in_time(result.columns, *np.broadcast_to(result.inputs, (2, f.size)))
     towards = {name: np.where(f >= 0, below, above) for name, (below, above) in sides.items()}
     causes = Counter(_largest_cause(scene, result, index, towards) for index in outputs)

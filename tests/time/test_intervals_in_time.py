@@ -16,7 +16,7 @@ from lubfric._base import read_table
 from lubfric.models.load_sharing import MomentResponse, moment_model_error
 from lubfric.output import describe_scene, history_answer, main
 from lubfric.scene import Harmonic, Ramp, Transient
-from lubfric.time import PARTS_NOT_IN_TIME
+from lubfric.time import PARTS_NOT_IN_TIME, counts_in_average
 from lubfric.time.result import largest_friction_in_time
 
 SMALL = {"shape": (48, 48), "spacing": 1.8e-6}
@@ -209,7 +209,23 @@ def test_an_interval_that_reaches_zero_says_why(held, boundary, rolling, samplin
     assert all("begins at the smallest f that resists the sliding" in each for each in run.uncertainty.text)
     assert not any("resists the sliding" in each for each in held.uncertainty.text)
     text = " ".join(history_answer.history_answer(scene, run, complete=True))
-    assert f"At 3 outputs, between t = 0 s and {3} ms, the interval of f reaches 0" in text and cause in text
+    assert f"At 3 outputs, between t = 0 s and {3} ms, the interval of f contains 0" in text and cause in text
+
+
+def test_all_outputs_whose_interval_contains_zero_are_counted_and_the_steady_point_is_advised_once(held):
+    """At the first, rolling resistance makes f negative, at the second it makes most of f, at the third little."""
+    forces = {"rolling_force": [-0.006, 0.002, 0.0], "boundary_force": [0.001, 0.001, 0.008], "couette_force": 0.0}
+    of_f = {"coefficient": [-0.005, 0.003, 0.008], "model_error_low": 1.2, "model_error_high": 1.5}
+    of_f |= {"sampling_error": 0.0, "film_to_roughness_ratio": 1.5, "contact_load": [0.1, 0.1, 0.8] * held.load}
+    of_f |= {name: value * held.load for name, value in forces.items()}
+    run = replace(
+        held, columns=held.columns | {name: np.broadcast_to(value, 3) for name, value in of_f.items()}, inputs=0.0
+    )
+    low, high = run.uncertainty.interval.T
+    assert np.all(low <= 0) and np.all(high >= 0) and not counts_in_average(run.columns)[:2].any()
+    text = " ".join(history_answer.history_answer(RUN, run, complete=True) + history_answer.history_notes(RUN, run))
+    assert "At 3 outputs, between t = 0 s and 3 ms, the interval of f contains 0" in text
+    assert text.count("steady point") == text.count("numerics.model = 'deterministic'") == 1
 
 
 @pytest.mark.parametrize("boundary", [0.0014, 0.0016])
