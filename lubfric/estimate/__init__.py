@@ -38,6 +38,7 @@ from .uncertainty import (
     curve_of,
     interval,
     row_of_uncertainty,
+    uncertainty_of_row,
 )
 from .uncertainty_of_f import CUT_AT_LIMIT, CUT_AT_ZERO, NAME_OF_INTERVAL, uncertainty_of
 from .work_of_point import (

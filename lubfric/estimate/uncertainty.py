@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,6 +13,7 @@ from .._base import Renamed
 from ..models.shared import (
     REDUCED_BY_DETERMINISTIC,
     REDUCED_BY_TOLERANCE,
+    SAMPLING_ERROR_MISSED,
     UNKNOWN_SIDES,
     ModelErrorPart,
     Sides,
@@ -203,8 +204,13 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     def is_near_zero(self) -> bool:
         """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to
         it."""
-        finite = [part for part in self.budget.values() if math.isfinite(part)]
-        return bool(is_near_zero(self.coefficient, max(finite, default=0.0)))
+        return bool(is_near_zero(self.coefficient, _largest_of_finite(self.budget.values())))
+
+    @property
+    def misses_sampling_tolerance(self) -> bool:
+        """Whether the sampling error is above its tolerance; not where f `is_near_zero`, as no relative error counts
+        there."""
+        return not self.is_near_zero and self.sampling > SAMPLING_ERROR_MISSED * self.tolerance
 
     @property
     def is_largest_by_model(self) -> bool:
@@ -303,6 +309,19 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 # Columns of the uncertainty of f in every table: the ends of its interval, its parts, and both sides of those that have
 # two.
 UNCERTAINTY_COLUMNS = ("interval_low", "interval_high", *COLUMN_OF_ERROR.values(), *OF_SIDES, "sampling_tolerance")
+
+
+def _largest_of_finite(parts: Iterable[float]) -> float:
+    """Return the largest of the ``parts`` of an error that are known; 0 where none is."""
+    return max((part for part in parts if math.isfinite(part)), default=0.0)
+
+
+def uncertainty_of_row(columns: Mapping[str, np.ndarray], row: int) -> Uncertainty:
+    """Return the `Uncertainty` of f in a ``row`` of a table, (n,) each, as far as its ``columns`` tell it."""
+    names = {"coefficient": "coefficient", "sampling_tolerance": "tolerance"}
+    names |= {column: name for name, column in COLUMN_OF_ERROR.items()}
+    numbers: dict[str, Any] = {name: float(columns[key][row]) for key, name in names.items() if key in columns}
+    return Uncertainty(**numbers)
 
 
 def row_of_uncertainty(uncertainty: Uncertainty) -> dict[str, float]:

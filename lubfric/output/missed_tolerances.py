@@ -1,14 +1,15 @@
 """Which points of a curve or of a study miss a tolerance of their scene, and by how much."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .._base import FloatArray
+from ..estimate import uncertainty_of_row
 from ..models.shared import (
     SAMPLING_ERROR,
-    SAMPLING_ERROR_MISSED,
     Assumption,
     half_width_of_error,
     is_by_sliding,
@@ -73,20 +74,27 @@ class MissedTolerance:
         )
 
 
-def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]) -> Iterator[MissedTolerance]:
+def missed_tolerances(
+    columns: Mapping[str, np.ndarray], scenes: Sequence[Scene], usual: FloatArray | float = math.nan
+) -> Iterator[MissedTolerance]:
     """Yield the tolerances that points miss, by the ``columns`` of their errors, (n,), and the scene of each point,
-    (n,).
+    (n,); ``usual``: model-form errors that do not count, (n,), NaN where they do.
 
-    The sampling error counts at 95 %, as its tolerance then does, which is a standard error. The model-form error
-    counts without that by an unknown limiting stress, of any model. Where f is near 0, or that of rolling resistance,
-    no relative error counts.
+    The sampling error counts where the notes of its points state it (`Uncertainty.misses_sampling_tolerance`), at 95 %,
+    as its tolerance then does, which is a standard error. The model-form error counts without that by an unknown
+    limiting stress, of any model. Where f is near 0, or that of rolling resistance, no other relative error counts.
     """
     f = _column(columns, "coefficient", len(scenes))
     slides = is_by_sliding({"coefficient": f, **columns})
     for checked in _checked_errors(columns, [scene.numerics for scene in scenes]):
         error = checked.error
-        is_relative = np.array([not is_near_zero(*pair) for pair in zip(f.tolist(), error.tolist())], dtype=bool)
-        points = np.flatnonzero((error > checked.factor * checked.limit) & is_relative & slides)
+        counts = checked.counts
+        if counts is None:
+            is_relative = np.array([not is_near_zero(*pair) for pair in zip(f.tolist(), error.tolist())], dtype=bool)
+            counts = (error > checked.limit) & is_relative & slides
+        if checked.assumption == Assumption.MODEL_FORM_ERROR:
+            counts = counts & np.isnan(usual)
+        points = np.flatnonzero(counts)
         if not points.size:
             continue
         worst = int(points[np.argmax(error[points] / checked.limit[points])])
@@ -106,7 +114,8 @@ def missed_tolerances(columns: Mapping[str, np.ndarray], scenes: Sequence[Scene]
 class _CheckedError:
     """An error of f at some points, relative, at 95 %, and its limit, (n,) each.
 
-    ``tolerance_of`` gives what sets the limit of a row, as text; the error may be ``factor`` times its limit.
+    ``tolerance_of`` gives what sets the limit of a row, as text; ``counts``: where the error is above its limit and
+    counts; None: where it is so as a relative error of f.
     """
 
     name: str
@@ -114,7 +123,7 @@ class _CheckedError:
     error: FloatArray
     limit: FloatArray
     tolerance_of: Callable[[int], str]
-    factor: float = 1.0
+    counts: np.ndarray | None = None
 
 
 def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numerics]) -> Iterator[_CheckedError]:
@@ -130,13 +139,15 @@ def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numeri
     freedom = _column(columns, "sampling_freedom", count).tolist()
     at_95 = np.array([half_width_of_error(1.0, number) for number in freedom])
     of_sample = np.array([each.sampling_tolerance for each in numerics])
+    requested = {**columns, "sampling_tolerance": of_sample}
+    uncertainties = [uncertainty_of_row(requested, row) for row in range(count)]
     yield _CheckedError(
         name=SAMPLING_ERROR,
         assumption=Assumption.SAMPLING_ERROR,
         error=at_95 * _column(columns, "sampling_error", count),
         limit=at_95 * of_sample,
         tolerance_of=lambda row: standard_error_in_words(float(of_sample[row])),
-        factor=SAMPLING_ERROR_MISSED,
+        counts=np.array([each.misses_sampling_tolerance for each in uncertainties], dtype=bool),
     )
     by_limit = np.nan_to_num(_column(columns, "limit_error", count))
     of_model = np.square(_column(columns, "model_error", count)) - np.square(by_limit)

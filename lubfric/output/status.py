@@ -46,12 +46,11 @@ class StatusOfPoints:
     @property
     def exceeded(self) -> list[MissedTolerance]:
         """The tolerances that points miss, but for the `usual_model_errors`."""
-        counted_errors = np.where(np.isnan(self.usual_model_errors), self.columns["model_error"], np.nan)
         return [
             replace(each, notes=self._noted_model_errors(each.points))
             if each.assumption == Assumption.MODEL_FORM_ERROR
             else each
-            for each in missed_tolerances({**self.columns, "model_error": counted_errors}, self.scenes)
+            for each in missed_tolerances(self.columns, self.scenes, self.usual_model_errors)
         ]
 
     @property

@@ -13,7 +13,6 @@ from ..estimate import FrictionResult, Uncertainty, friction, row_of_uncertainty
 from ..models import prepare, prepare_on_maps
 from ..models.shared import (
     SAMPLING_ERROR,
-    SAMPLING_ERROR_MISSED,
     Assumption,
     Prepared,
     Violation,
@@ -178,7 +177,7 @@ def row_of(speed: float, outcome: Outcome, numerics: Numerics) -> dict[str, Any]
 def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
     """Yield a note if the sampling error of f is above its tolerance, both at 95 %. A single point has it among the
     notes of its ``uncertainty``; a table has it among the assumptions that do not hold, as the numerical error."""
-    if not uncertainty.is_near_zero and uncertainty.sampling > SAMPLING_ERROR_MISSED * uncertainty.tolerance:
+    if uncertainty.misses_sampling_tolerance:
         times = uncertainty.area_needed
         at_95 = student(uncertainty.freedom)
         yield Violation(

@@ -16,6 +16,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
 import lubfric
+from lubfric.estimate import Uncertainty
 from lubfric.models.shared import checks
 from lubfric.output import main, orders_of_magnitude
 from lubfric.output.history_table import evenly_by_change
@@ -299,6 +300,23 @@ def test_no_relative_error_of_an_f_near_zero_misses_a_tolerance():
     }
     (missed,) = missed_tolerances(columns, [scene, scene])
     assert missed.points == (1,) and missed.value == pytest.approx(2.228 * 0.05, rel=1e-3)
+
+
+def test_status_and_notes_count_the_same_sampling_errors():
+    """f is near 0 at the second point by its model-form error, so its sampling error does not count relative to f."""
+    scene = lubfric.load_scene("paper")
+    model = np.array([0.01, 11.0])
+    columns = {
+        "coefficient": np.array([0.05, 0.002]),
+        "sampling_error": np.array([0.06, 0.26]),
+        "sampling_freedom": np.array([30.0, 30.0]),
+    }
+    missed = {each.assumption: each.points for each in missed_tolerances(columns | {"model_error": model}, [scene] * 2)}
+    tolerance = scene.numerics.sampling_tolerance
+    point = Uncertainty(coefficient=0.002, model=11.0, sampling=0.26, freedom=30.0, tolerance=tolerance)
+    assert missed[checks.Assumption.SAMPLING_ERROR] == (0,) and not point.misses_sampling_tolerance
+    assert replace(point, model=0.01).misses_sampling_tolerance
+    assert [each.points for each in missed_tolerances(columns, [scene] * 2)] == [(0, 1)]
 
 
 def test_a_documented_default_is_a_default_beside_short_forms(tmp_path):
