@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from copy import copy
 from functools import wraps
 from importlib.resources import as_file, files
@@ -41,7 +41,10 @@ CURVE_COLOURS = (BLUE, "#d07a1f", "#7a4a9c", "#14898c", "#8a8a1c", "#c2418f")
 FRICTION_LABEL = axis_label("coefficient")
 
 # What of a line a user may choose, by the words of matplotlib.
-LINE_STYLE = ("color", "c", "linestyle", "ls", "linewidth", "lw", "marker", "markersize", "ms", "alpha", "zorder")
+LINE_STYLE = ("color", "ls", "lw", "marker", "ms", "alpha", "zorder")
+
+# Other words of matplotlib for the same, by definition there.
+OTHER_WORDS = {"c": "color", "linestyle": "ls", "linewidth": "lw", "markersize": "ms"}
 
 # Names of the lines of a curve in its key.
 FRICTION_COEFFICIENT = "friction coefficient"
@@ -154,13 +157,14 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
     return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
-def check_style(style: Iterable[str], own: Sequence[str]) -> None:
-    """Raise `InputError` for a keyword in the ``style`` of a line that no line has; ``own``: the other keywords of the
-    caller."""
-    unknown = [name for name in style if name not in (*LINE_STYLE, *own)]
+def line_style(style: Mapping[str, Any], own: Sequence[str]) -> dict[str, Any]:
+    """Return the ``style`` of a line with one word for each property, those of `LINE_STYLE`. Raises `InputError` for a
+    keyword that no line has; ``own``: the other keywords of the caller."""
+    unknown = [name for name in style if name not in (*LINE_STYLE, *OTHER_WORDS, *own)]
     if unknown:
-        allowed = f"{', '.join(own)}; of the line: {', '.join(LINE_STYLE)}"
+        allowed = f"{', '.join(own)}; of the line: {', '.join((*LINE_STYLE, *OTHER_WORDS))}"
         raise InputError(f"plot has no keyword {unknown[0]!r}", allowed=allowed)
+    return {OTHER_WORDS.get(name, name): value for name, value in style.items()}
 
 
 def friction_lines(

@@ -70,11 +70,10 @@ def curve_axes(
     ------
     InputError : another keyword, or another form of the intervals
     """
-    figures.check_style(style, ("ax", "label", "parts", "interval", "error_parts"))
+    style = figures.line_style(style, ("ax", "label", "parts", "interval", "error_parts"))
     validate.choice("interval", interval, INTERVALS)
     axes = figures.axes_or_new(ax)
     without = () if parts else (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION)
-    style |= {"color": style.pop("c")} if "c" in style else {}
     shown: dict[str, Any] = {"interval": interval, "error_parts": error_parts, "without": without}
     draw_curve(axes, columns_of_curve(curve), curve.scene.name, label, **shown, **style)
     figure = axes.get_figure(root=True)

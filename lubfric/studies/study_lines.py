@@ -56,7 +56,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines.
     Many curves are coloured by the first number that is varied, and have markers and dashes by the second. Where speeds
     were chosen, the lines are interpolated."""
-    figures.check_style(style, ("ax",))
+    style = figures.line_style(style, ("ax",))
     if result.paired:
         return plot_points(result, "coefficient", ax, **style)
     axes = figures.axes_or_new(ax)

@@ -138,7 +138,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """
     from matplotlib.ticker import MaxNLocator
 
-    figures.check_style(style, ("quantity", "ax", "label"))
+    style = figures.line_style(style, ("quantity", "ax", "label"))
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ORDERED_BY if name in result.coords), None)
     count = result.status.shape[-1]
@@ -358,14 +358,14 @@ def friction_over_speed(
         of_points: dict[str, Any] = {}
         if error > DRAWN_ERROR:
             of_points |= {} if "label" in style else {"label": figures.FRICTION_COEFFICIENT}
-            style = {"label": figures.INTERPOLATED_BETWEEN} | style | {"ls": "--"}
+            style = {"label": figures.INTERPOLATED_BETWEEN, "ls": "--"} | style
         (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=color, **of_points)
     else:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         if speed.size > 1:  # a dotted line joins the points, and is no curve
-            axes.plot(speed, parts[0], ":", color=color, label=figures.NOT_BETWEEN)
-        points = {"marker": "o", "ms": 4, "ls": ""} | style
+            axes.plot(speed, parts[0], ls=style.get("ls", ":"), color=color, label=figures.NOT_BETWEEN)
+        points = {"marker": "o", "ms": 4} | style | {"ls": ""}
         (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)

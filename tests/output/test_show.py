@@ -137,6 +137,16 @@ def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
         curve.plot(interval="lines")
 
 
+@pytest.mark.parametrize("word", ["ls", "linestyle"])
+@pytest.mark.parametrize("error", [0.01, 0.2, 0.6])
+def test_a_line_has_the_requested_style_however_well_f_is_known_between_points(curve, monkeypatch, word, error):
+    monkeypatch.setattr("lubfric.studies.tables.between", lambda curve: error)
+    ax = curve.plot(axes(), label="mine", parts=False, interval="none", **{word: "-.", "linewidth": 3.0})
+    (line,) = (each for each in ax.lines if each.get_linestyle() != "None")
+    assert line.get_linestyle() == "-."
+    assert error > 0.5 or line.get_linewidth() == 3.0
+
+
 def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkeypatch, capsys):
     saved = []
     monkeypatch.setattr(Figure, "savefig", lambda figure, path: (saved.append(figure), path.write_bytes(b"")))
