@@ -44,7 +44,7 @@ FRICTION_LABEL = axis_label("coefficient")
 LINE_STYLE = ("color", "ls", "lw", "marker", "ms", "alpha", "zorder")
 
 # Other words of matplotlib for the same, by definition there.
-OTHER_WORDS = {"c": "color", "linestyle": "ls", "linewidth": "lw", "markersize": "ms"}
+WORDS_OF_STYLE = {"c": "color", "linestyle": "ls", "linewidth": "lw", "markersize": "ms"}
 
 # Names of the lines of a curve in its key.
 FRICTION_COEFFICIENT = "friction coefficient"
@@ -160,11 +160,11 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
 def line_style(style: Mapping[str, Any], own: Sequence[str]) -> dict[str, Any]:
     """Return the ``style`` of a line with one word for each property, those of `LINE_STYLE`. Raises `InputError` for a
     keyword that no line has; ``own``: the other keywords of the caller."""
-    unknown = [name for name in style if name not in (*LINE_STYLE, *OTHER_WORDS, *own)]
+    unknown = [name for name in style if name not in (*LINE_STYLE, *WORDS_OF_STYLE, *own)]
     if unknown:
-        allowed = f"{', '.join(own)}; of the line: {', '.join((*LINE_STYLE, *OTHER_WORDS))}"
+        allowed = f"{', '.join(own)}; of the line: {', '.join((*LINE_STYLE, *WORDS_OF_STYLE))}"
         raise InputError(f"plot has no keyword {unknown[0]!r}", allowed=allowed)
-    return {OTHER_WORDS.get(name, name): value for name, value in style.items()}
+    return {WORDS_OF_STYLE.get(name, name): value for name, value in style.items()}
 
 
 def friction_lines(

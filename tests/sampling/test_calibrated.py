@@ -289,6 +289,17 @@ def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(monkeyp
     assert "the film is thick" not in thinner.uncertainty.text and "long cells" in thinner.decision.text
 
 
+def test_in_pure_rolling_a_thick_film_is_that_of_load_sharing_without_long_cells(monkeypatch):
+    """Their bounds are those of the rolling part alone, whatever strips give: no narrower than those of load sharing."""
+    solves = []
+    scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"model": "quick"} | LOOSE)
+    with monkeypatch.context() as patch:
+        patch.setattr("lubfric.models.quick.quick_model.solve_on_long_cells", lambda *args: solves.append(args))
+        result = lubfric.friction(scene, 0.3)
+    assert not solves and result.contact_load == 0
+    assert lubfric.friction(scene, 0.3, model="paper").coefficient == result.coefficient
+
+
 @pytest.mark.parametrize("speed", [0.11, 0.2])
 def test_a_film_a_little_thicker_than_in_all_solved_cases_has_the_smaller_error_of_both_models(speed):
     """So the interval has no step where the answer changes from one model to the other."""

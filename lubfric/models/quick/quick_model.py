@@ -280,11 +280,15 @@ def _mean_side(answer: ModelAnswer) -> float:
 
 def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
     """Return the error of f, relative, that the bounds of long cells have at least where the film over ``sq`` [m] at
-    ``speed`` [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
+    ``speed`` [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not. In pure rolling
+    all of f is the rolling part (`StripsOnLongCells.bounds`)."""
     if not (speed and sq):
         return 0.0
-    times = scene.line_contact(abs(speed)).moes_film / (error_model_of(scene).range["moes_ratio"][1] * sq)
-    return LEAST_BOUNDS * widening([math.log(times)]) if times > 1 else 0.0
+    error_model = error_model_of(scene)
+    times = scene.line_contact(abs(speed)).moes_film / (error_model.range["moes_ratio"][1] * sq)
+    is_rolling = scene.motion.slide_roll_ratio == 0
+    least = error_model.rolling_error(1.0, 0.0) if is_rolling else LEAST_BOUNDS
+    return least * widening([math.log(times)]) if times > 1 else 0.0
 
 
 class QuickModel(Model):
