@@ -69,6 +69,7 @@ from ..time import (
     speeds_of_run,
     strip_of_run,
     way_to_motion_in_time,
+    without_steady_film,
 )
 from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
@@ -331,8 +332,11 @@ def _effects_before(
     none where they change nothing. ``sq`` [m]: of the whole surface."""
     effects: tuple[ExpectedEffect, ...] = ()
     over_time: tuple[EffectOverTime, ...] = ()
+    note = ""
     if scene.transient is not None:
-        over_time = expected_effects_of_run(scene, sq, _chosen_times(scene))
+        chosen = _chosen_times(scene)
+        over_time = expected_effects_of_run(scene, sq, chosen)
+        note = without_steady_film(scene, chosen)
         place = "over the run, each at the moment at which it is largest"
         rows = [f"at {each.moment_in_words}: {effect_in_words(each.effect)}" for each in over_time]
     else:
@@ -345,7 +349,7 @@ def _effects_before(
         return effects, over_time, []
     changes = [
         f"likely changes of f {place}, estimated with closed forms. Each range covers the asperity load "
-        "ratios that the result may have; the report states the changes for the solved ratio.",
+        "ratios that the result may have; the report states the changes for the solved ratio." + note,
         *rows,
     ]
     return effects, over_time, changes

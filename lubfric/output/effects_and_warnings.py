@@ -7,7 +7,7 @@ import numpy as np
 
 from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, sentence
 from ..studies import CurveResult
-from ..time import LEAST_SHARE_OF_F, TransientResult, effects_of_run, rolls
+from ..time import LEAST_SHARE_OF_F, TransientResult, effects_of_run, rolls, without_steady_film
 from .describe import SceneEstimate
 from .markup import NUMBER, Cell, bullets, folded_notes, plain_cells, table
 from .operating_point import place_on_curve
@@ -27,10 +27,14 @@ def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterabl
 
 
 def effects_table(
-    effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str, which: str = "", moments: Sequence[str] = ()
+    effects: Sequence[UnmodelledEffect | ExpectedEffect],
+    place: str,
+    which: str = "",
+    moments: Sequence[str] = (),
+    note: str = "",
 ) -> str:
     """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place;
-    ``moments``: of a run in time, when each is largest."""
+    ``moments``: of a run in time, when each is largest; ``note``: a sentence to be appended."""
     if not effects:
         return f"<p>Each known effect changes f {escape(place)} by less than the numerical tolerance.</p>"
     rows = []
@@ -39,7 +43,7 @@ def effects_table(
         row += plain_cells(moments[index : index + 1])
         row += plain_cells([sentence(effect.recommendation)])
         rows.append(row)
-    head = f"<p>Likely changes of f {escape(place)}{which}, estimated with closed forms.</p>"
+    head = f"<p>Likely changes of f {escape(place)}{which}, estimated with closed forms.{note}</p>"
     heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
     return head + table(heads, rows, in_sentences=True)
 
@@ -70,8 +74,11 @@ def history_effects(prepared: Prepared, result: TransientResult, estimate: Scene
     place = "of the run"
     share = f"{100 * LEAST_SHARE_OF_F:g} %"
     which = f", each at the output at which it changes f the most, of those with f above {share} of its mean"
+    note = without_steady_film(prepared.scene, result.time.tolist())
     if result.time.size < 2 or not rolls(result.columns).any():
         effects = estimate.effects_over_time
         place = "before the solve"
         which = ", each at the moment at which it changes f the most"
-    return effects_table([each.effect for each in effects], place, which, [each.moment_in_words for each in effects])
+        note = ""
+    moments = [each.moment_in_words for each in effects]
+    return effects_table([each.effect for each in effects], place, which, moments, note)

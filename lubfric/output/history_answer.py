@@ -11,6 +11,7 @@ from ..scene import Scene, moment_in_words, why_gap_not_resolved
 from ..time import (
     TransientResult,
     counts_in_average,
+    has_steady_film,
     in_motion,
     intervals_to_zero,
     rolls,
@@ -64,18 +65,18 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
             f"The mean power loss is {loss}, {_largest_power_loss(result)}. Friction takes {taken} in "
             f"{worded(duration, 's')}."
         )
-    with_ratio = _have_lambda_ratio(result)
+    with_ratio = have_lambda_ratio(scene, result)
     ratio = result.lambda_ratio[with_ratio]
     if ratio.size:
         sq = plain_number(float(np.median(result.full_load_film[with_ratio] / ratio)), "m")
-        thinnest = thinnest_full_load_film(result)
+        thinnest = thinnest_full_load_film(scene, result)
         full_load = plain_number(float(result.full_load_film[thinnest]), "m")
         sentences.append(
             f"The full-load film is thinnest at t = {_moment(result, thinnest)}: {full_load}, a lambda ratio of "
             f"{number_or_dash(float(result.lambda_ratio[thinnest]))}. At the outputs in motion, the lambda ratio "
             f"(full-load film thickness in steady motion over a Sq of {sq}) lies between "
             f"{number_or_dash(float(ratio.min()))} and "
-            f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(result)}."
+            f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(scene, result)}."
         )
     sentences.append(
         f"The smallest film thickness is {_least_film(result)}{at_floor}."
@@ -119,11 +120,19 @@ def _moment(result: TransientResult, index: int) -> str:
     return moment_in_words(float(result.time[index]), float(result.angle_of_rotation[index]))
 
 
-def _without_lambda_ratio(result: TransientResult) -> str:
-    """Return at how many outputs no oil is entrained, so that there is no lambda ratio, as text to be appended; "" for
-    none."""
-    count = int(np.sum(~rolls(result.columns)))
-    return f"; {counted(count, 'outputs')} without entrainment {'have' if count > 1 else 'has'} none" if count else ""
+def _without_lambda_ratio(scene: Scene, result: TransientResult) -> str:
+    """Return at how many outputs there is no lambda ratio, because no oil is entrained or no film is steady, as text to
+    be appended; "" for none."""
+    entrains = rolls(result.columns)
+    numbers = {
+        "without entrainment": int(np.sum(~entrains)),
+        "at a reversal or start, where no film is steady,": int(np.sum(entrains & ~have_lambda_ratio(scene, result))),
+    }
+    return "".join(
+        f"; {counted(number, 'outputs')} {where} {'have' if number > 1 else 'has'} none"
+        for where, number in numbers.items()
+        if number
+    )
 
 
 def _largest_force(result: TransientResult) -> str:
@@ -162,9 +171,10 @@ def _least_film(result: TransientResult) -> str:
     return plain_number(float(np.nanmin(result.min_film)), "m")
 
 
-def _have_lambda_ratio(result: TransientResult) -> np.ndarray:
-    """Return at which outputs a run has a lambda ratio, (nt,)."""
-    has_ratio: np.ndarray = np.isfinite(result.lambda_ratio) & rolls(result.columns)
+def have_lambda_ratio(scene: Scene, result: TransientResult) -> np.ndarray:
+    """Return at which outputs a run of ``scene`` has a lambda ratio, (nt,): where its film may be a steady one."""
+    is_steady = np.array([has_steady_film(scene, time) for time in result.time.tolist()], bool)
+    has_ratio: np.ndarray = np.isfinite(result.lambda_ratio) & rolls(result.columns) & is_steady
     return has_ratio
 
 
@@ -221,17 +231,17 @@ def thinnest_film(result: TransientResult) -> int:
     return int(np.nanargmin(result.min_film))
 
 
-def thinnest_full_load_film(result: TransientResult) -> int:
+def thinnest_full_load_film(scene: Scene, result: TransientResult) -> int:
     """Return the index of the output with the thinnest full-load film, of those that have a lambda ratio, of which
     there are some."""
-    return int(np.nanargmin(np.where(_have_lambda_ratio(result), result.full_load_film, np.inf)))
+    return int(np.nanargmin(np.where(have_lambda_ratio(scene, result), result.full_load_film, np.inf)))
 
 
-def named_outputs(result: TransientResult) -> set[int]:
+def named_outputs(scene: Scene, result: TransientResult) -> set[int]:
     """Return the indices of the outputs that `history_answer` names."""
     named = {largest_friction(result), largest_force(result), thinnest_film(result)}
     if np.isfinite(result.power_loss).any():
         named.add(largest_power_loss(result))
-    if _have_lambda_ratio(result).any():
-        named.add(thinnest_full_load_film(result))
+    if have_lambda_ratio(scene, result).any():
+        named.add(thinnest_full_load_film(scene, result))
     return named

@@ -5,9 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..quantities import COLUMNS, counted
-from ..time import TransientResult, in_motion, rolls
+from ..scene import Scene
+from ..time import TransientResult, in_motion
 from ..units import beside_interval, converted, interval_in_words, unit_of_largest
-from .history_answer import named_outputs
+from .history_answer import have_lambda_ratio, named_outputs
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, column_heading, number_cells, number_or_dash, table
 
 # Columns of the table of a run in time: before f, or after it.
@@ -35,23 +36,23 @@ SAME_CHANGE = 1e-3
 TABLE_ROUNDING = 1e-8
 
 
-def history_table(result: TransientResult) -> str:
-    """Return the table of some outputs of a run in time, more of them where it changes fast, and of those that its
+def history_table(scene: Scene, result: TransientResult) -> str:
+    """Return the table of some outputs of a run of ``scene`` in time, more of them where it changes fast, and of those that its
     answer names."""
     count = result.time.size
     if count < 2:
         return ""
     c = result.columns
-    rows_at = sorted({*evenly_by_change(c, min(HISTORY_ROWS, count)), *named_outputs(result)})
+    rows_at = sorted({*evenly_by_change(c, min(HISTORY_ROWS, count)), *named_outputs(scene, result)})
     moving = in_motion(c)
-    entrains = rolls(c)
+    has_ratio = have_lambda_ratio(scene, result)
     units = {name: unit_of_largest(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
     shown |= {
         name: np.where(moving, shown[name], 0.0)
         for name in ("entrainment_speed", "sliding_speed", "friction_force", "power_loss")
     }
-    shown |= {name: np.where(entrains, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
+    shown |= {name: np.where(has_ratio, shown[name], np.nan) for name in ("full_load_film", "lambda_ratio")}
     without_angle = not np.isfinite(c["angle_of_rotation"]).any()
     omitted = {"angle_of_rotation"} if without_angle else set()
     before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before" and name not in omitted]

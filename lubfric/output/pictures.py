@@ -462,10 +462,9 @@ def plot_history(
 
 def _films_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
     """Draw the films over the times ``t`` of an axis, on a logarithmic one where they span more than
-    `WIDE_SPAN_OF_FILMS`."""
+    `WIDE_SPAN_OF_FILMS`. Of these the solved films count, because the full-load film falls to 0 at a reversal."""
     unit = unit_for(c["central_film"].tolist(), "m")
     scale = 1.0 / converted(1.0, unit, "m")
-    drawn = []
     lines: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("full_load_film", "full-load film in steady motion", {"color": figures.BLUE, "lw": 1}),
         ("central_film", "central separation", {"color": figures.GREEN, "lw": 3.2, "alpha": 0.45}),
@@ -475,12 +474,11 @@ def _films_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> Non
     for name, label, style in lines:
         if name in c:
             axes.plot(t, c[name] * scale, label=label, **style)
-            drawn.append(c[name])
-    films = np.concatenate(drawn)
+    films = np.concatenate([c[name] for name, *_ in lines[1:] if name in c])
     films = films[films > THINNEST_DRAWN]
     axes.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
     if films.size and films.max() > WIDE_SPAN_OF_FILMS * films.min():
-        axes.set(yscale="log", ylim=(0.8 * films.min() * scale, 1.25 * films.max() * scale))
+        axes.set(yscale="log", ylim=(0.8 * films.min() * scale, None))
         figures.plain_ticks(axes.yaxis)
 
 

@@ -106,7 +106,7 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
             ]
         ),
         "budget": history_budget(result),
-        "table": history_table(result),
+        "table": history_table(prepared.scene, result),
         "effects": history_effects(prepared, result, estimate),
         "details": "",
         "sources": bullets(result.cite().splitlines()),

@@ -9,6 +9,7 @@ from .effects import (
     expected_effects_of_run,
     first_largest,
     largest_over_time,
+    without_steady_film,
 )
 from .estimated import RunEstimate, periods
 from .film import solve_transient_ehl
@@ -35,7 +36,7 @@ from .result import (
 )
 from .roughness_in_motion import way_to_motion_in_time
 from .run import raise_if_failed, run_in_time, transient
-from .scene_in_time import fastest_of_run, scene_at
+from .scene_in_time import fastest_of_run, has_steady_film, scene_at
 from .start import speeds_of_run, strip_of_run
 from .transient_deterministic import make_deterministic, start_deterministic
 from .transient_load_sharing import STANDS_STILL, TransientLoadSharing

@@ -16,12 +16,13 @@ from ..models.shared import (
     is_near_zero,
     unmodelled_effects,
 )
+from ..quantities import counted
 from ..scene import Scene
 from ..units import worded
 from .registry import may_move_roughness
 from .result import TransientResult, rolls
 from .roughness_in_motion import way_to_motion_in_time
-from .scene_in_time import scene_at
+from .scene_in_time import has_steady_film, scene_at
 
 # Outputs of a run at which its effects are judged, about. A choice: each takes some milliseconds, and the extremes of
 # the run are always among them.
@@ -80,7 +81,7 @@ class EffectOverTime:
 
 def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectOverTime, ...]:
     """Return the effects that are not modelled in a run, each at the output at which it changes f the most; none where
-    no output entrains oil."""
+    no output entrains oil. Those by the film are not judged where there is no steady one (`has_steady_film`)."""
     f = np.abs(result.coefficient)
     moving = np.flatnonzero(rolls(result.columns) & np.isfinite(f))
     if not moving.size:
@@ -97,7 +98,7 @@ def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectO
         effects = unmodelled_effects(
             scenes[index],
             prepared.surface.sq,
-            abs(float(result.entrainment_speed[index])),
+            _speed_of_steady_film(prepared.scene, float(result.time[index])),
             (abs(float(result.boundary_force[index] / load)), float(f[index])),
             run=prepared.scene,
             includes_motion=may_move_roughness(prepared.scene),
@@ -117,17 +118,34 @@ def effects_of_run(prepared: Prepared, result: TransientResult) -> tuple[EffectO
 def expected_effects_of_run(scene: Scene, sq: float, times: Sequence[float]) -> tuple[EffectOverTime, ...]:
     """Return the effects that are not modelled in a run of ``scene``, whose surface has the standard deviation ``sq``
     [m], before it is solved: each at that of the ``times`` [s] at which the range of its relative change of f is
-    widest."""
+    widest. Those by the film are judged as in `effects_of_run`."""
     moments = []
     way = way_to_motion_in_time(scene)
     for time in times:
         now = scene_at(scene, time)
-        speed = abs(now.motion.entrainment_speed)
+        speed = _speed_of_steady_film(scene, time)
         effects = expected_effects(
             now, sq, speed, run=scene, includes_motion=may_move_roughness(scene), way_to_motion=way
         )
         moments.append(EffectsOfMoment(time=time, peak_pressure=_peak_pressure(now), friction=1.0, effects=effects))
     return largest_over_time(moments)
+
+
+def without_steady_film(scene: Scene, times: Sequence[float]) -> str:
+    """Return at how many of the ``times`` [s] no film is steady, so that no effect on it is estimated there, as a
+    sentence to be appended; "" where there is one at all."""
+    count = sum(not has_steady_film(scene, time) for time in times)
+    if not count:
+        return ""
+    return (
+        f" At {count} of {counted(len(times), 'moments')}, as at a reversal, no film is steady; changes by the film are "
+        "not estimated there."
+    )
+
+
+def _speed_of_steady_film(scene: Scene, time: float) -> float:
+    """Return the entrainment speed [m/s] at ``time`` [s], without its sign; 0 where it makes no steady film."""
+    return abs(scene_at(scene, time).motion.entrainment_speed) if has_steady_film(scene, time) else 0.0
 
 
 def first_largest(values: Sequence[float]) -> int:

@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
 from ..errors import InputError
+from ..film import hertz
 from ..models.shared import film_lubricant, inlet_at
 from ..oil import Lubricant
 from ..scene import Bodies, Constant, History, Motion, Scene, Transient, moving_bodies, sampled_times
@@ -17,6 +18,9 @@ MOST_SLIDE_ROLL_RATIO = 1e6
 
 # Bodies of moments that are remembered, of runs in which load and radius are constant; a choice.
 REMEMBERED_BODIES = 100
+
+# [-] part of a run over which the change of its speed is taken; a choice: small, and far above rounding.
+SHORT_PART = 1e-6
 
 # [-] the speed of a body is U plus this part of u2 - u1; by definition.
 SLIDING_PART = {"surface": -0.5, "counterface": 0.5}
@@ -96,6 +100,22 @@ def surface_speed(scene: Scene, body: str, time: float) -> float:
     speed = value_at(scene, "speed", scene.motion.entrainment_speed, time)
     sliding = value_at(scene, "sliding", scene.motion.slide_roll_ratio * speed, time)
     return speed + SLIDING_PART[body] * sliding
+
+
+def has_steady_film(scene: Scene, time: float) -> bool:
+    """Return whether the film just before ``time`` [s] may be that of steady motion: the entrainment speed is above
+    that which passes the width of the contact, 2 b, with the acceleration a of the moment, sqrt(2 (2 b) a). At a
+    reversal it is not, and the film there is what was entrained before (squeeze film)."""
+    bodies = scene.bodies
+    constant = scene.motion.entrainment_speed
+    step = SHORT_PART * transient_of(scene).duration
+    begin = max(time - step, 0.0)
+    change = value_at(scene, "speed", constant, begin + step) - value_at(scene, "speed", constant, begin, "at")
+    load = value_at(scene, "load", bodies.load, time)
+    radius = value_at(scene, "radius", bodies.radius, time)
+    half_width = hertz.line_half_width(load / bodies.width, radius, bodies.e_prime)
+    speed = value_at(scene, "speed", constant, time)
+    return speed**2 > 4.0 * half_width * abs(change) / step
 
 
 def roughness_moves(scene: Scene) -> bool:

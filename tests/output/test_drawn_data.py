@@ -414,6 +414,9 @@ def test_a_history_is_drawn_by_its_table(figures):
     scales = [each.axes[1].get_yscale() for each in figures]
     (low, high) = figures.pop().axes[1].get_ylim()
     assert scales == ["linear", "log"] and 0.5 < low < 1.0 and high > 220
+    reversing = columns | {"full_load_film": np.array([1e-7, 2e-10, 1e-7])}
+    plot_history("x.png", reversing, "title")
+    assert figures.pop().axes[1].get_yscale() == "linear"  # the solved films alone decide
     assert "(nm)" in second.get_ylabel() and fourth.get_xlabel() == "time (ms)" and "(N)" in load.get_ylabel()
     power = np.array([2e-3, 5e-3, 4e-3])
     ends = {"power_loss_low": 0.9 * power, "power_loss_high": 1.2 * power}

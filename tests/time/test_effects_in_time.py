@@ -1,6 +1,7 @@
 """Effects that are not modelled in a run in time: each is reported at the moment at which it changes f the most."""
 
 import math
+import re
 
 import pytest
 from scene_text import paper_scene
@@ -8,24 +9,26 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.models.shared import UnmodelledEffect, unmodelled_effects
 from lubfric.output import describe_scene
-from lubfric.scene import Table, Transient
+from lubfric.scene import Harmonic, Table, Transient
 from lubfric.time import (
     EffectsOfMoment,
     effects_of_run,
     expected_effects_of_run,
     first_largest,
+    has_steady_film,
     largest_over_time,
     rolls,
     scene_at,
+    without_steady_film,
 )
 
 # Slow under a heavy load, fast under a light one.
-LOAD = Table(times=(0.0, 1e-3, 2e-3), values=(2.0, 5.5, 2.0))
-SPEED = Table(times=(0.0, 1e-3, 2e-3), values=(0.3, 0.01, 0.3))
+LOAD = Table(times=(0.0, 1.0, 2.0), values=(2.0, 5.5, 2.0))
+SPEED = Table(times=(0.0, 1.0, 2.0), values=(0.3, 0.01, 0.3))
 RUN = paper_scene(
     contact={"shape": (48, 48), "spacing": 1.8e-6},
     numerics={"sampling": "patch", "tolerance": 0.05},
-).with_(transient=Transient(duration=2e-3, outputs=8, load=LOAD, speed=SPEED))
+).with_(transient=Transient(duration=2.0, outputs=8, load=LOAD, speed=SPEED))
 
 
 def effect(what, change):
@@ -79,7 +82,7 @@ def test_the_largest_of_a_symmetrical_cycle_is_that_of_its_first_half(values, in
 
 def test_an_additive_is_an_effect_of_a_run_only_where_the_boundary_friction_has_no_range():
     ranged = RUN.with_(bodies={"boundary_friction_coefficient": [0.08, 0.1]})
-    named = [expected_effects_of_run(scene, 1e-7, [0.0, 1e-3]) for scene in (RUN, ranged)]
+    named = [expected_effects_of_run(scene, 1e-7, [0.0, 1.0]) for scene in (RUN, ranged)]
     assert ["additive" in " ".join(each.effect.what for each in effects) for effects in named] == [True, False]
 
 
@@ -93,7 +96,7 @@ def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():
         effects = unmodelled_effects(
             scene_at(RUN, run.time[i]),
             prepared.surface.sq,
-            abs(run.entrainment_speed[i]),
+            abs(run.entrainment_speed[i]) if has_steady_film(RUN, run.time[i]) else 0.0,
             (abs(run.boundary_force[i] / run.load[i]), f),
             run=RUN,
             includes_motion=False,
@@ -111,4 +114,38 @@ def test_no_output_of_a_run_has_a_larger_change_than_the_one_stated():
 def test_info_states_the_effects_of_the_slow_moment_of_high_pressure_too():
     """At the largest speed the film hides the roughness, and neither running-in nor an additive changes f."""
     text = " ".join(describe_scene(RUN).split("effects not modelled")[1].split())
-    assert "at t = 1 ms: another additive" in text
+    assert "at t = 1 s: another additive" in text
+
+
+def reversing():
+    """A ring under 250 MPa that reverses at 2 ms with 2120 m/s²."""
+    speed = Harmonic(amplitude=6.75, frequency=50.0, phase=math.pi - 2 * math.pi * 50.0 * 2e-3)
+    scene = paper_scene(
+        motion={"entrainment_speed": 6.0, "slide_roll_ratio": 2.0},
+        lubricant={"oil": "mineral-100", "temperature_celsius": 80.0},
+        contact={"shape": (48, 48), "spacing": 1.8e-6},
+        numerics={"sampling": "patch"},
+    )
+    return scene.with_(transient=Transient(duration=4e-3, outputs=8, speed=speed))
+
+
+def test_a_film_is_steady_where_the_speed_passes_the_contact_before_it_changes():
+    """About a reversal the speed is a t: the contact of 2 b is passed where a t² / 2 > 2 b."""
+    run = reversing()
+    bodies = run.bodies
+    half_width = lubfric.film.hertz.line_half_width(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
+    least = math.sqrt(2 * 2 * half_width / (6.75 * 2 * math.pi * 50.0))
+    for part, is_steady in ((-1.1, True), (-0.9, False), (0.0, False), (0.9, False), (1.1, True)):
+        assert has_steady_film(run, 2e-3 + part * least) == is_steady
+    assert has_steady_film(RUN.with_(transient=Transient(duration=2e-3, outputs=8)), 1e-3)  # at one speed
+
+
+def test_no_effect_of_the_film_is_stated_at_a_reversal():
+    times = [0.0, 1e-3, 2e-3 + 1e-8, 3e-3]
+    of_run = expected_effects_of_run(reversing(), 5e-7, times)
+    (warmer,) = (each for each in of_run if "warmer" in each.effect.what)
+    assert warmer.time != times[2] and warmer.effect.largest_change < 1.0
+    assert any("additive" in each.effect.what and each.time == times[2] for each in of_run)
+    text = " ".join(describe_scene(reversing()).split("effects not modelled")[1].split())
+    assert re.search(r"At \d+ of \d+ moments, as at a reversal, no film is steady", text)
+    assert without_steady_film(RUN.with_(transient=Transient(duration=2e-3, outputs=8)), times) == ""

@@ -156,7 +156,22 @@ def test_the_thinnest_film_of_a_run_is_stated_with_its_time_and_its_part_of_the_
         full_load = re.search(r"The full-load film is thinnest at t = 3 ms: [\d.]+ .m, a lambda ratio of (\S+)\.", text)
         assert float(full_load[1]) == pytest.approx(held.lambda_ratio[2] / 3, rel=0.01)
         assert text.index(full_load[0]) < text.index("The solved film")
-        assert {*history_answer.named_outputs(replace(held, columns=columns))} >= {1, 2}
+        assert {*history_answer.named_outputs(RUN, replace(held, columns=columns))} >= {1, 2}
+
+
+def test_the_full_load_film_of_a_reversal_is_no_answer(held):
+    """The speed reverses at 1 ms, where the closed form of the film has 1e-4 of its thickness."""
+    speed = Harmonic(amplitude=5.0, frequency=50.0, phase=math.pi - 2 * math.pi * 50.0 * 1e-3)
+    scene = RUN.with_(transient=Transient(3e-3, speed=speed))
+    factors = {"full_load_film": 1e-4, "lambda_ratio": 1e-4, "entrainment_speed": 1e-3}
+    columns = held.columns | {name: held.columns[name] * np.array([1.0, factors[name], 1.0]) for name in factors}
+    run = replace(held, columns=columns)
+    text = " ".join(history_answer.history_answer(scene, run, complete=True))
+    low, high = re.search(
+        r"lies between (\S+) and (\S+); 1 output at a reversal or start, .* has none\. ", text
+    ).groups()
+    assert [float(low), float(high)] == pytest.approx(held.lambda_ratio[[0, 2]], rel=0.01)
+    assert not history_answer.have_lambda_ratio(scene, run)[1]
 
 
 def test_friction_gives_no_power():
