@@ -1,13 +1,13 @@
 """The inputs of a scene in a report: the value used, how it was given, and what follows from it."""
 
 import math
-from collections.abc import Container
+from collections.abc import Container, Sequence, Set
 from itertools import cycle
 from typing import Any
 
 from ..models.shared import sentence
 from ..quantities import KEYS
-from ..scene import Scene, short_keys, toml_value
+from ..scene import OIL_KEYS, SOURCES, Scene, fields_of_key, short_keys, toml_value
 from ..units import worded
 from .inputs import FACTS, inputs, range_in_words
 from .markup import bullets, row_with_key, table
@@ -26,16 +26,29 @@ SLIDING_SPEED_KEY = "motion.sliding_speed"
 MOST_GIVEN = 400
 
 
-def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: Container[str] = ()) -> str:
+def inputs_as_given(
+    scene: Scene,
+    section: str,
+    given: dict[str, Any],
+    fitted: Container[str] = (),
+    *,
+    others: Sequence[Scene] = (),
+    varied: Set[str] = frozenset(),
+) -> str:
     """Return the inputs of a section: each value used, how it was given, and what follows from them; ``fitted``: the
-    keys that a fit found."""
-    shown = dict(given)
+    keys that a fit found. Of a study only what the ``others`` of its scenes share, without the keys that are
+    ``varied``."""
+    shown = {name: value for name, value in given.items() if not _is_replaced(f"{section}.{name}", varied)}
+    everywhere = [set(inputs(other, section)) for other in others]
     rows = []
-    for label, text, key, note in inputs(scene, section):
+    for row in inputs(scene, section):
+        (label, text, key, note) = row
         name = key.partition(".")[2]
+        value = shown.pop(name, None)
+        if key in varied or any(row not in alike for alike in everywhere):
+            continue
         source = "derived" if _is_derived(scene, section, name, given) else "default"
-        if name in shown:
-            source = _given(name, shown.pop(name))
+        source = source if value is None else _given(name, value)
         source = BY_FIT if key in fitted else source
         rows.append(row_with_key(label, text + note, source))
     for name, value in shown.items():
@@ -44,9 +57,28 @@ def inputs_as_given(scene: Scene, section: str, given: dict[str, Any], fitted: C
             continue
         used = _used_in_words(scene, f"{section}.{name}", value)
         rows.append(row_with_key(label, used, _given(name, value)))
-    facts = bullets([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
+    facts = bullets([sentence(text) for text in _facts_in_common((scene, *others), section, varied)])
     heads = ["quantity", "value used", "given as"]
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
+
+
+def _facts_in_common(scenes: Sequence[Scene], section: str, varied: Set[str]) -> list[str]:
+    """Return what follows from the inputs of a section in all ``scenes``, one line each; nothing of speeds that are
+    ``varied``, which scenes do not have."""
+    if section not in FACTS or (section == "motion" and varied):
+        return []
+    first, *others = (FACTS[section](scene) for scene in scenes)
+    return [text for text in first if all(text in facts for facts in others)]
+
+
+def _is_replaced(key: str, varied: Set[str]) -> bool:
+    """Return whether the value of a ``key`` is not used where keys are ``varied``: one of these is it, states one of the
+    same fields, or is an oil."""
+    section, _, name = key.partition(".")
+    fields = {field for other in varied for field in fields_of_key(other)}
+    if section == "lubricant" and name in OIL_KEYS:
+        return not varied.isdisjoint({key, *(f"{section}.{other}" for other in ("viscosity", *SOURCES))})
+    return not fields.isdisjoint(fields_of_key(key))
 
 
 def _used_in_words(scene: Scene, key: str, value: Any) -> str:

@@ -68,6 +68,7 @@ def run_study(arguments: Namespace) -> None:
     check_outputs(arguments, arguments.out, [*names, *others])
     (explanation, expected, known) = studies.explained(plan, arguments.out, workers=workers)
     say(explanation)
+    given = studies.given_tables_of_study(arguments.study)
     begun = CommandStart.now()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
     kept = keeping(lambda: _kept(arguments.out))
@@ -91,7 +92,7 @@ def run_study(arguments: Namespace) -> None:
         rows: list[str] = []
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
-        folder.add("report.html", study_page, result, folder.contents, rows, known)
+        folder.add("report.html", study_page, result, folder.contents, rows, known, given)
         if np.isfinite(result["coefficient"]).any():
             folder.add(BIBTEX_FILE, lambda: references(result))
         folder.add(RESOLVED_SCENE, lambda: plan.scene.to_toml(arguments.out).encode())

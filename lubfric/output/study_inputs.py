@@ -1,16 +1,18 @@
 """The inputs of a study: those that are varied, and those that all points share."""
 
-from collections.abc import Container, Iterable, Sequence
+import tomllib
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ..quantities import CHOICES, COLUMNS, worded_value
+from ..quantities import COLUMNS, worded_value
 from ..scene import Scene
 from ..studies import StudyPlan, StudyResult, name_of, scenes_of
 from ..units import converted, printed, unit_of_largest
-from .inputs import INPUT_SECTIONS, inputs
-from .markup import Cell, row_with_key, table
+from .inputs import INPUT_SECTIONS
+from .inputs_as_given import inputs_as_given
 
 
 def range_in_a_line(key: str, values: np.ndarray) -> str:
@@ -28,49 +30,18 @@ def range_in_a_line(key: str, values: np.ndarray) -> str:
     return f"{label}: {', '.join(shown[:6])}{', ...' if len(shown) > 6 else ''}"
 
 
-def common_inputs(result: StudyResult | StudyPlan) -> str:
+def common_inputs(result: StudyResult | StudyPlan, given: Mapping[str, Any] | None = None) -> str:
     """Return the tables of the inputs that are the same at all points of a study or its plan: all but those that are
-    varied."""
+    varied. ``given``: tables of the scene as the user wrote them; None: those of the scene in full."""
     varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
-    whole_sections = {key for key in varied if "." not in key}
-    parts = []
-    scene, *others = _scenes_at_ends(result if isinstance(result, StudyPlan) else result.plan)
-    for section in INPUT_SECTIONS:
-        if section in whole_sections:
-            continue
-        rows = _common_numbers(scene, others, section, varied)
-        rows += _common_choices((scene, *others), section, varied)
-        if section == "lubricant" and scene.lubricant.oil is not None:
-            names = {"" if each.lubricant.oil is None else each.lubricant.oil.name for each in (scene, *others)}
-            rows += [row_with_key("oil", name, "") for name in names if len(names) == 1]
-        if rows:
-            parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}")
-    return "".join(parts)
-
-
-def _common_numbers(scene: Scene, others: Iterable[Scene], section: str, varied: Container[str]) -> list[list[Cell]]:
-    """Return the rows of the inputs of a ``section`` that are not ``varied`` and the same in ``scene`` and the
-    ``others``."""
-    everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
-    return [
-        row_with_key(label, text + note, key)
-        for label, text, key, note in inputs(scene, section)
-        if key not in varied and all((key, text, note) in alike for alike in everywhere)
-    ]
-
-
-def _common_choices(scenes: Sequence[Scene], section: str, varied: Container[str]) -> list[list[Cell]]:
-    """Return the rows of the keys of a ``section`` that are words, not ``varied``, and the same in all ``scenes``."""
-    rows = []
-    for key in CHOICES:
-        (of_section, _, name) = key.partition(".")
-        if of_section != section or key in varied:
-            continue
-        values = {getattr(getattr(scene, section), name, None) for scene in scenes}
-        value = values.pop()
-        if not values and isinstance(value, str):
-            rows.append(row_with_key(name.replace("_", " "), value, key))
-    return rows
+    plan = result if isinstance(result, StudyPlan) else result.plan
+    scenes = [replace(each, transient=None) for each in _scenes_at_ends(plan)]
+    tables = tomllib.loads(replace(plan.scene, transient=None).to_toml()) if given is None else given
+    return "".join(
+        inputs_as_given(scenes[0], section, dict(tables.get(section, {})), others=scenes[1:], varied=varied)
+        for section in INPUT_SECTIONS
+        if section not in varied and section != "transient"
+    )
 
 
 def _scenes_at_ends(plan: StudyPlan) -> list[Scene]:

@@ -1,7 +1,9 @@
 """report.html of a study: status, answer, pictures, a table of its points, what was varied, inputs."""
 
 import time
+from collections.abc import Mapping
 from html import escape
+from typing import Any
 
 import numpy as np
 
@@ -25,9 +27,15 @@ from .study_warnings import counts_of_warnings, notes_without_warning, numbered_
 CAPTION = "The results of the study"
 
 
-def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str], known: int = 0) -> bytes:
+def study_page(
+    result: StudyResult,
+    contents: dict[str, bytes],
+    answer: list[str],
+    known: int = 0,
+    given: Mapping[str, Any] | None = None,
+) -> bytes:
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text;
-    ``known``: number of points that earlier calls solved."""
+    ``known``: number of points that earlier calls solved; ``given``: tables of the scene as the user wrote them."""
     import scipy
 
     warnings = numbered_warnings(result)
@@ -73,7 +81,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
             about=about,
             table=table_of_points(result, rows, warnings) + folded_details(result, rows) + _effects_table(result),
             varied=_list([range_in_a_line(key, values) for key, (_, values) in result.coords.items()]),
-            inputs=common_inputs(result),
+            inputs=common_inputs(result, given),
             sources=methods_to_quote(_common_facts(result), result) + _list(result.cite().splitlines()),
         ),
     )

@@ -52,5 +52,13 @@ from .scene import (
     why_gap_not_resolved,
 )
 from .sections import ROUGH_SECTIONS, SECTIONS
-from .short_forms import MOST_SPEEDS, SOURCES, reduced_radius, short_keys, speeds_of_range
+from .short_forms import (
+    MOST_SPEEDS,
+    OIL_KEYS,
+    SOURCES,
+    fields_of_key,
+    reduced_radius,
+    short_keys,
+    speeds_of_range,
+)
 from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, moment_in_words, read_history

@@ -19,7 +19,7 @@ from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
 from .main_effects import MainEffect, is_scattered, main_effects, why_not_separated
 from .operating_points import DURATION, INTERVAL_COLUMNS, ORDERED_BY, POSITION, mean_over_cycle
-from .plan import StudyPlan, load_study, plan_study, scenes_of
+from .plan import StudyPlan, given_tables_of_study, load_study, plan_study, scenes_of
 from .points import SPEED, UNUSED
 from .result import OF_TOLERANCES, StudyResult, has_study, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key

@@ -17,7 +17,7 @@ from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import KEYS
 from ..samples import is_measured, whole_maps
-from ..scene import Scene, builtin_scenes, load_scene, read_toml, speeds_of_range
+from ..scene import Scene, builtin_scenes, given_tables, load_scene, read_toml, speeds_of_range
 from ..units import printed
 from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
 from .distributions import DEVIATION, Normal, unit_in
@@ -303,6 +303,17 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         rows = table["points"]
         operating_points = path.parent / rows if isinstance(rows, str) else _flat_rows(rows)
     return replace(plan_study(scene, vary, speeds, operating_points), drawn=how_drawn)
+
+
+def given_tables_of_study(path: str | Path) -> dict[str, Any]:
+    """Return the tables of the scene of a study as they are written; ``path``: the study file, or the scene."""
+    path = Path(path)
+    table = given_tables(str(path))
+    name = table.get("scene")
+    if not isinstance(name, str):
+        return table
+    beside = path.parent / name
+    return given_tables(str(beside) if beside.is_file() else name)
 
 
 def _drawn_in_words(table: Any) -> str:

@@ -233,6 +233,31 @@ def test_a_grade_that_is_varied_is_no_common_input():
     assert "ISO VG 46" in study_inputs.common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
 
 
+def test_common_inputs_are_shown_as_given_and_an_estimate_is_named(tmp_path):
+    """Ra and the viscosities at 40 and 100 °C as the user wrote them, and the estimated coefficient with its range; not
+    the load that is varied, nor an Ra in place of which Sq is varied."""
+    oil = '[lubricant]\nnu40 = "66 mm2/s"\nnu100 = "11.6 mm2/s"\ntemperature = "100 °C"\n'
+    rough = '[surface]\nra = "0.3 µm"\ncorrelation_length = "10 µm"\n'
+    bodies = (
+        "[bodies]\nradius = 0.02\nload = 400\nwidth = 0.012\nmaterial = 'steel'\nboundary_friction_coefficient = 0.1\n"
+    )
+    (tmp_path / "scene.toml").write_text(f"{bodies}{oil}[motion]\nentrainment_speed = 1\n{rough}")
+    (tmp_path / "study.toml").write_text("scene = 'scene.toml'\nspeeds = [1.0]\n[vary]\n'bodies.load' = [1.0, 2.0]\n")
+    given = studies.given_tables_of_study(tmp_path / "study.toml")
+    page = study_inputs.common_inputs(studies.load_study(tmp_path / "study.toml"), given)
+    given_as = [
+        f"{key} = &quot;{value}&quot;"
+        for key, value in (("nu40", "66 mm2/s"), ("nu100", "11.6 mm2/s"), ("ra", "0.3 µm"))
+    ]
+    assert all(text in page for text in (*given_as, "measured oils 11 to 18.1 /GPa"))
+    assert "load = 400" not in page and "<h3>transient" not in page
+    rougher = lubfric.plan_study(lubfric.load_scene(tmp_path / "scene.toml"), {"surface.sq": [1e-7, 2e-7]}, [1.0])
+    assert "ra = " not in study_inputs.common_inputs(rougher, given)
+    warmer = {"lubricant.temperature": [300.0, 350.0]}
+    of_warmer = study_inputs.common_inputs(lubfric.plan_study(rougher.scene, warmer, [1.0]), given)
+    assert "nu40 = " in of_warmer and "mPa s" not in of_warmer and "temperature = " not in of_warmer
+
+
 @pytest.mark.parametrize(
     "values, is_log",
     [
