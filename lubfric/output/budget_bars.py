@@ -16,6 +16,8 @@ from .markup import bullets
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
+# What the numerical part of a run in time is called: the error of the integral of the film's shear stress alone.
+NUMERICAL_IN_TIME = "numerical (grid of the film; not the steps in time)"
 
 
 def names_of_inputs(keys: Iterable[str]) -> str:
@@ -53,7 +55,7 @@ def budget_of_mean(result: TransientResult) -> tuple[dict[str, float], dict[str,
 def budget_of_mean_in_words(result: TransientResult) -> list[str]:
     """Return the `budget_of_mean` in a line; none where there is no mean."""
     _, words = budget_of_mean(result)
-    parts = ", ".join(f"{name} {text}" for name, text in words.items())
+    parts = ", ".join(f"{NUMERICAL_IN_TIME if name == 'numerical' else name} {text}" for name, text in words.items())
     return [f"Uncertainty budget of the mean: {parts}."] if parts else []
 
 
@@ -63,7 +65,8 @@ def history_budget(result: TransientResult) -> str:
     if not values:
         return ""
     largest = max(values, key=lambda name: values[name] if math.isfinite(values[name]) else 0.0)
-    labels = BUDGET | {"input": f"input (range of the {COLUMNS[BOUNDARY_FRICTION_KEY].label})"}
+    of_input = f"input (range of the {COLUMNS[BOUNDARY_FRICTION_KEY].label})"
+    labels = BUDGET | {"numerical": NUMERICAL_IN_TIME, "input": of_input}
     advice = f"; give a measured {BOUNDARY_FRICTION_KEY} to reduce it" if largest == "input" else ""
     notes = [
         f"Largest part: {labels[largest]} {words[largest]}{advice}",

@@ -10,7 +10,7 @@ import numpy as np
 
 from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..models.shared import in_a_cell
+from ..models.shared import in_a_cell, sentence
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
 from ..studies import in_words
@@ -162,11 +162,12 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
 
 def _answer_lines(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
-    """Return the answer of a run, the parts of its interval and what narrows it, a line each."""
+    """Return the answer of a run, the parts of its interval, what is not in it and what narrows it, a line each."""
     answer = history_answer(scene, result, complete=complete)
     if result.time.size < 2:
         return answer
-    return [*answer, *budget_of_mean_in_words(result), *history_notes(scene, result)]
+    not_in = map(sentence, result.not_in)
+    return [*answer, *budget_of_mean_in_words(result), *not_in, *history_notes(scene, result)]
 
 
 def _time_left(scene: Scene, run: RunEstimate) -> TimeLeft:

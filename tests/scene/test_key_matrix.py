@@ -202,6 +202,7 @@ def test_a_starved_inlet_reaches_the_number(model, inlet):
     assert moved(starved, lambda: flooded) > MOVES
     stated = [[e for e in solved(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
     assert stated[0] and not stated[1]
+    assert all(each.is_note for each in stated[0])  # what the scene gives is meant
     assert stated[0][0].recommendation.startswith(f"keep lubricant.{next(iter(inlet))}")
     assert answer(starved, "sweep") == pytest.approx(answer(starved), rel=0.6 * MOVES)
     enough = flooded.with_(lubricant={key: 3e3 * value for key, value in inlet.items()})

@@ -430,11 +430,16 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
         sliding=Harmonic(amplitude=-0.01, frequency=100.0),
         load=Harmonic(mean=3.0, amplitude=1.0, frequency=100.0),
     )
+    hardness = paper_scene().bodies.hardness
+    ranges = {"hardness": [hardness, 0.9 * hardness, 1.1 * hardness]}
     said, page = run_and_page(
-        paper_scene(contact=SMALL, numerics=PATCH | {"accept": True}).with_(transient=plan),
+        paper_scene(contact=SMALL, numerics=PATCH | {"accept": True}, bodies=ranges).with_(transient=plan),
         tmp_path / "a",
         capsys,
     )
+    numerical = "numerical (grid of the film; not the steps in time)"
+    assert all(" ".join(text.split()).count(numerical) >= 1 for text in (said, page))
+    assert all("Range of hardness: not in the interval" in " ".join(text.split()) for text in (said, page))
     assert "under 2 to 4 N" in page and "total load 2 to 4 N over the run" in " ".join(page.split())
     assert "It is negative at" in page
     assert re.search(r"the largest [\d.]+ \S*W \([\d.]+ to [\d.]+ \S*W at 95 %\) at t = [\d.]+ m?s\.", said)
@@ -447,7 +452,13 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
         f = [row["coefficient [-]"] for row in csv.DictReader(file)]
     assert [i for i, cell in enumerate(f) if not cell] == [0, 10, 20] and all(map(float, filter(None, f)))
     (stated,) = re.findall(r"The largest f is (\S+)", said)
-    order = ("The mean friction", "Uncertainty budget of the mean: numerical ", "answers at all times.", "wrote ")
+    order = (
+        "The mean friction",
+        "Uncertainty budget of the mean: numerical ",
+        "Range of hardness",
+        "answers at all times.",
+        "wrote ",
+    )
     places = [said.index(words) for words in order]
     assert places == sorted(places)
     assert abs(float(stated)) == pytest.approx(max(abs(float(cell)) for cell in f if cell), rel=0.01)

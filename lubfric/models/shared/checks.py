@@ -309,6 +309,7 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
             unit="",
             consequence=consequence,
             recommendation=advice,
+            is_note=True,
         )
     elif lost > tolerance * friction_force:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
