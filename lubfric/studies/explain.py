@@ -4,11 +4,12 @@ scene."""
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
 from textwrap import shorten
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import InputError
 from ..estimate import (
@@ -25,6 +26,7 @@ from ..models.shared import (
     ExpectedEffect,
     Prepared,
     Violation,
+    ends_of_alpha,
     expected_alpha_in_words,
     expected_effects,
     sentence,
@@ -36,6 +38,8 @@ from .conditions import comparison_in_words
 from .operating_points import POINT
 from .store import PLAN, Store
 from .study_table import StudyTable
+
+T = TypeVar("T")
 
 # How well times are estimated: 93 % of 292 runs of verification.campaigns.estimates are within that; most of the
 # constants were chosen with these in sight. Measured.
@@ -134,7 +138,8 @@ class Left:
     models : number of the points of these scenes that each model is expected to answer, by its name
     failed : why some cannot be solved, in lines
     warnings : what is expected not to hold, but the unusual values (`warnings_of`), in sentences
-    alpha : what the range of an estimated pressure-viscosity coefficient is expected to change, in words; "": nothing
+    alpha : what the range of an estimated pressure-viscosity coefficient is expected to change at the points of the
+        study, left or not, in words; "": nothing
     """
 
     seconds: float
@@ -148,12 +153,12 @@ class Left:
 def _left(plan: Any, table: StudyTable) -> Left:
     """Return what is left of a study."""
     left = [(plan.scenes[curve], key, speeds) for curve, key, speeds in sorted(table.left())]
-    some = left[:: -(-len(left) // SAMPLED)] if left else []
+    some = _some_of(left)
     seconds = 0.0
     models: Counter[str] = Counter()
     failed = []
     violations: list[tuple[Violation, ...]] = []
-    effects: list[ExpectedEffect] = []
+    made: dict[str, Prepared] = {}
     known: dict[tuple[str, Any], float] = {}
     for scene, key, speeds in some:
         try:
@@ -166,7 +171,7 @@ def _left(plan: Any, table: StudyTable) -> Left:
             known |= _seconds_of_each(key, points, one) if speeds else {(key, NO_SPEED): one}
             models.update(point.model.name for point in points)
             violations.append(_expected(prepared, speeds, points, work))
-            effects += _expected_effects(prepared, speeds)
+            made[key] = prepared
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)
@@ -180,8 +185,26 @@ def _left(plan: Any, table: StudyTable) -> Left:
         models=models,
         failed=failed,
         warnings=_in_sentences(violations, checked),
-        alpha=expected_alpha_in_words(effects),
+        alpha=expected_alpha_in_words(_effects_of_plan(plan, made)),
     )
+
+
+def _some_of(scenes: Sequence[T]) -> Sequence[T]:
+    """Return some of the ``scenes``, evenly spread, which are made ready."""
+    return scenes[:: -(-len(scenes) // SAMPLED)] if scenes else []
+
+
+def _effects_of_plan(plan: Any, made: dict[str, Prepared]) -> list[ExpectedEffect]:
+    """Return the effects that are not modelled at some points of all of a ``plan``, so that a study that goes on states
+    the same as before; ``made``: scenes that are ready, by their key."""
+    scene_of_key = dict(zip(reversed(plan.keys), reversed(plan.scenes)))
+    effects: list[ExpectedEffect] = []
+    for key, speeds in _some_of(list(plan.requested.items())):
+        if not ends_of_alpha(scene_of_key[key]):
+            continue
+        with suppress(InputError):  # a scene that cannot be solved is reported where it is left
+            effects += _expected_effects(made.get(key) or prepare(scene_of_key[key]), speeds)
+    return effects
 
 
 def _seconds_of_each(key: str, points: Sequence[PointWorkEstimate], total: float) -> dict[tuple[str, Any], float]:

@@ -206,7 +206,7 @@ def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_a
     ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.is_of_alpha]
     section = text.partition("effects not modelled")[2]
     assert len(ends) == 1 and section.count("pressure-viscosity coefficient") == 1
-    (percentage,) = re.search(r"it changes f by at most about ([\d.]+) % either way: an upper bound", section).groups()
+    (percentage,) = re.search(r"it changes f by at most about ([\d.]+) % either way: by closed forms", section).groups()
     assert float(percentage) == pytest.approx(100 * ends[0].high, rel=0.06)
     assert f"At {speed:.4g} m/s and a peak Hertz pressure of" in section
     assert "Give lubricant.pressure_viscosity_coefficient, from a data sheet" in section

@@ -143,6 +143,7 @@ from .unmodelled import (
     UnmodelledEffect,
     change_in_words,
     effect_in_words,
+    ends_of_alpha,
     expected_effects,
     stated_way_to_motion,
     unmodelled_effects,

@@ -11,8 +11,8 @@ from .violation import numbers_in_words
 
 # What the change is before there is a result. A convention.
 UPPER_BOUND = (
-    "an upper bound by closed forms over all asperity load ratios that the result may have, often many times the "
-    "change at the solved ratio, which the report states"
+    "by closed forms over all asperity load ratios that the result may have; the change at the solved ratio, which the "
+    "report states, is often a small part of it"
 )
 
 
@@ -57,8 +57,8 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
     if not largest:
         return ""
     return (
-        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: by closed "
-        f"forms, that of measured oils changes f by {at_most_in_words(largest)}, {UPPER_BOUND}; {GIVE_ALPHA}"
+        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: that of "
+        f"measured oils changes f by {at_most_in_words(largest)}, {UPPER_BOUND}; {GIVE_ALPHA}"
     )
 
 
