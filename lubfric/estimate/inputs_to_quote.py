@@ -151,7 +151,8 @@ def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_
         if rough.file is not None:
             yield f"height map{name} {Path(rough.file).name}{_map_in_words(rough, measured.get(section))}"
         if rough.sq is not None:
-            yield f"Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}"
+            nominal = "" if rough.sk is None else "nominal "
+            yield f"{nominal}Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}"
         if rough.file is None:
             yield from _generated(rough, name)
     if scene.counterface is None:

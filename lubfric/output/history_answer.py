@@ -74,7 +74,7 @@ def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> 
         sentences.append(
             f"The full-load film is thinnest at t = {_moment(result, thinnest)}: {full_load}, a lambda ratio of "
             f"{number_or_dash(float(result.lambda_ratio[thinnest]))}. At the outputs in motion, the lambda ratio "
-            f"(full-load film thickness in steady motion over a Sq of {sq}) lies between "
+            f"(full-load film thickness in steady motion over {sq}, the Sq of the surface used) lies between "
             f"{number_or_dash(float(ratio.min()))} and "
             f"{number_or_dash(float(ratio.max()))}{_without_lambda_ratio(scene, result)}."
         )

@@ -16,6 +16,8 @@ from .markup import bullets, row_with_key, table
 PLANE = "a plane"
 # How an input was given that a fit found.
 BY_FIT = "fitted"
+# How Sq was given where the scene has the heights of a plateau-honed surface.
+DERIVED_FROM_HONED = "derived from sk, spk, svk (nominal; that of a generated map deviates)"
 # Key of an oil by its name, from which other inputs follow.
 NAMED_OIL = "oil"
 # Key of the bodies by their material, from which other inputs follow.
@@ -48,6 +50,8 @@ def inputs_as_given(
         if key in varied or any(row not in alike for alike in everywhere):
             continue
         source = "derived" if _is_derived(scene, section, name, given) else "default"
+        if name == "sq" and "sk" in given:
+            source = DERIVED_FROM_HONED
         source = source if value is None else _given(name, value)
         source = BY_FIT if key in fitted else source
         rows.append(row_with_key(label, text + note, source))

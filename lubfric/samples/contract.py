@@ -151,7 +151,7 @@ class Sample(ABC):
         joined = (
             f"the first {self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
         )
-        statistics = f"statistics of {joined}, whose Sq the lambda ratio has: {replace(surface, source='').describe()}"
+        statistics = f"statistics of {joined}, whose Sq the lambda ratio of a steady point has: {replace(surface, source='').describe()}"
         return [self.map_in_words(surface), statistics]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
 import lubfric
-from lubfric.estimate import Uncertainty
+from lubfric.estimate import Uncertainty, roughness_to_quote
 from lubfric.models.shared import checks
 from lubfric.output import main, orders_of_magnitude
 from lubfric.output.history_table import evenly_by_change
@@ -331,6 +331,15 @@ def test_a_documented_default_is_a_default_beside_short_forms(tmp_path):
         sources["limiting shear stress at ambient pressure"] == sources["thermal conductivity of the film"] == "default"
     )
     assert sources["viscosity at ambient pressure"] == "derived"
+
+
+def test_sq_of_a_plateau_honed_surface_is_derived_and_nominal():
+    given = {"sk": "0.6 µm", "spk": "0.15 µm", "svk": "1.5 µm", "correlation_length": "15 µm"}
+    scene = lubfric.load_scene("paper").with_(surface=given)
+    (row,) = (each for each in inputs_as_given(scene, "surface", given).split("<tr>") if "Sq" in each)
+    assert "derived from sk, spk, svk (nominal" in row and "default" not in row
+    assert any(text.startswith("nominal Sq ") for text in roughness_to_quote(scene))
+    assert any(text.startswith("Sq ") for text in roughness_to_quote(lubfric.load_scene("paper")))
 
 
 def test_the_table_of_a_run_has_rows_where_it_changes():
