@@ -139,11 +139,12 @@ def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertain
     the surfaces slide.
 
     The sliding part of f resists the sliding, because it dissipates power; f is below 0 only by the rolling part of the
-    film's force, where that points the other way.
+    film's force, where that points the other way or may do so.
     """
     f = answer.numbers["coefficient"]
     sliding = sum(answer.numbers.get(force, math.nan) for force in SLIDING_FORCES) / scene.bodies.load
     rolling = answer.most_rolling_ratio * (f - sliding)
+    rolling = -abs(rolling) if answer.omits_flanks else rolling
     least = min(0.0, 0.0 if math.isnan(rolling) else rolling, f)
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):

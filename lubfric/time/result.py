@@ -430,7 +430,9 @@ def limits_in_time(columns: dict[str, np.ndarray], most_rolling_ratio: float) ->
     allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
     most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
-    by_rolling = np.minimum(np.minimum(most_rolling_ratio * np.nan_to_num(rolling), f), 0.0)
+    part = most_rolling_ratio * np.nan_to_num(rolling)
+    omits_flanks = most_rolling_ratio > STATIONARY_ROLLING_RATIO  # that part may have the other sign
+    by_rolling = np.minimum(np.minimum(-np.abs(part) if omits_flanks else part, f), 0.0)
     return np.where(columns["sliding_speed"] != 0, by_rolling, -most), most
 
 

@@ -640,6 +640,19 @@ def test_friction_does_not_drive_the_sliding(ratio):
     assert 0.0 <= result.power_loss_interval[0] <= result.power_loss
 
 
+@pytest.mark.parametrize("ratio", [0.0, 0.005])
+def test_the_flanks_of_moving_roughness_may_push_either_way(ratio):
+    """Load sharing omits that force: eight times its rolling force, of either sign, is within the interval. (A gear
+    flank in pure rolling: f -.0008 by strips, .0002 by load sharing.)"""
+    scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "paper"} | LOOSE)
+    result = lubfric.friction(scene, 0.05)
+    by_flanks = 8.0 * min(1.0, (1.5 / result.film_to_roughness_ratio) ** 2) * result.rolling_force / 5.5
+    (low, high) = result.uncertainty.interval
+    rolling = result.rolling_force / 5.5
+    assert low <= max(rolling - by_flanks, -8.0 * rolling) < 0 and high >= result.coefficient + by_flanks
+    assert ratio == 0.0 or low >= -8.0 * rolling
+
+
 def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
     from lubfric.estimate import estimated_work_of_point
     from lubfric.quantities import CHOICES

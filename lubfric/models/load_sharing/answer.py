@@ -51,6 +51,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         errors=errors_of(balanced),
         accepts_model_error=scene.numerics.model == "paper",  # a scene that names this model accepts its error
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else STATIONARY_ROLLING_RATIO,
+        omits_flanks=has_moving_roughness(scene),
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decision_of(
             scene,

@@ -264,7 +264,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[Sides, tuple[str, ...]
     )
     if scene.lubricant.inlet_film is not None and share > 0:
         sides = added_sides([sides, starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)])
-    return _of_sliding(sides, forces.shear.rolling), ()
+    return _of_sliding(scene, sides, forces.shear.rolling), ()
 
 
 def _largest_film_load_ratio(balanced: BalancedSample, by_equation: Sides) -> float:
@@ -306,13 +306,13 @@ def moment_model_error(
         shear=shear,
         rolling=rolling,
     )
-    return sides_of_parts(_parts_of_model(_of_sliding(sides, rolling), by_heat))
+    return sides_of_parts(_parts_of_model(_of_sliding(scene, sides, rolling), by_heat))
 
 
-def _of_sliding(sides: Sides, rolling: float) -> Sides:
-    """Return the relative ``sides`` of f, towards 0 at most all of it: only a ``rolling`` part that helps the sliding,
-    below 0, takes f beyond 0."""
-    return sides.capped() if rolling >= 0 else sides
+def _of_sliding(scene: Scene, sides: Sides, rolling: float) -> Sides:
+    """Return the relative ``sides`` of f, towards 0 at most all of it: f is beyond 0 only by a ``rolling`` part that
+    helps the sliding, below 0, or by pressure on the flanks of moving roughness, which is omitted and has any sign."""
+    return sides if rolling < 0 or has_moving_roughness(scene) else sides.capped()
 
 
 def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart, ...]:
