@@ -43,7 +43,7 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
         ASPERITY_LOAD_RATIO,
     ]
     of_loss = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
-    cells_of_rolling = without_small([*map(number_or_dash, of_loss.tolist())], rolling, curve["power_loss"])
+    cells_of_rolling = without_small([*map(number_or_dash, of_loss.tolist())], of_loss, shown["power_loss"])
     rows = []
     for index, point in enumerate(curve.points):
         place = f"{shown[swept][index]:.4g}"

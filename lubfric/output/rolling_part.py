@@ -3,8 +3,7 @@
 import numpy as np
 
 from .._base import FloatArray
-from ..models.shared import percent
-from ..units import printed
+from ..units import plain_number, printed
 
 # Part of the power loss above which a table of points states the rolling resistance in it. A choice: below it the loss
 # follows from f, load and sliding speed to within a digit.
@@ -32,9 +31,12 @@ def is_tabled(rolling: FloatArray, power_loss: FloatArray) -> bool:
 
 
 def without_small(texts: list[str], rolling: FloatArray, power_loss: FloatArray) -> list[str]:
-    """Return the ``texts`` of cells of the ``rolling`` part, (n,); "< 1 %" where it is less of the ``power_loss``."""
-    are_small = np.abs(rolling) < SMALL_ROLLING_PART * np.abs(power_loss)
-    return [f"< {percent(SMALL_ROLLING_PART)}" if is_small else text for text, is_small in zip(texts, are_small)]
+    """Return the ``texts`` of cells of the ``rolling`` part, (n,), in the unit of the ``power_loss``; where it is a
+    small part of the loss, as "< 1.5", the bound of this."""
+    bounds = SMALL_ROLLING_PART * np.abs(power_loss)
+    are_small = np.abs(rolling) < bounds
+    cells = zip(texts, bounds.tolist(), are_small.tolist())
+    return [f"< {plain_number(bound, digits=2)}" if is_small else text for text, bound, is_small in cells]
 
 
 def negative_in_words(rolling: FloatArray, power_loss: FloatArray) -> str:

@@ -36,10 +36,8 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
 }
 # Films of the folded table of details: in the other one they would make it wider than a window. A choice.
 FOLDED_FILMS = ("full_load_film", "central_film", "min_film")
-# Styles of cells that would wrap into three lines in a table of many columns: intervals of f, and numbers with their
-# interval.
+# Style of cells that would wrap in a table of many columns: intervals of f, and numbers with their interval.
 UNBROKEN = "white-space: nowrap"
-TWO_LINES = "min-width: 9em"
 # Digits of what is varied, which is exact. A choice: less makes neighbours alike.
 CELL_DIGITS = 4
 # Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
@@ -115,14 +113,12 @@ def _rolling_column(columns: dict[str, np.ndarray], picked: np.ndarray, heads: l
     unit = unit_for(loss.tolist(), si)
     heads.append(heading_of_rolling(unit))
     texts = [_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]
-    return [without_small(texts, rolling, loss)]
+    return [without_small(texts, *(converted(values, si, unit) for values in (rolling, loss)))]
 
 
 def _number_cell(text: str, *, is_interval: bool) -> Cell:
     """Return a cell of a number, or of an interval, which is not broken."""
-    style = TWO_LINES if "(" in text else ""
-    style = UNBROKEN if is_interval else style
-    return Cell(text=text, kind=NUMBER, style=style)
+    return Cell(text=text, kind=NUMBER, style=UNBROKEN if is_interval or "(" in text else "")
 
 
 def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:

@@ -60,6 +60,8 @@ LOOK = """<script>window.onload = () => {
       drawn: images.every(i => i.complete && i.naturalWidth > 300), images: images.length,
       beyond: wide.scrollWidth - wide.clientWidth, width: wide.clientWidth, answer: texts(".answer")[0], folded: folded,
       tables: [...page.querySelectorAll(".scroll")].map(t => t.scrollWidth - t.clientWidth),
+      overhang: [...page.querySelectorAll(".scroll")].map(
+        t => t.getBoundingClientRect().right - page.querySelector("h2").getBoundingClientRect().right),
       longest: Math.max(...[...page.querySelectorAll(".budget i")].map(i => i.offsetWidth)),
       bars: [...page.querySelectorAll(".budget i")].map(i => i.style.width)}};
   document.body.dataset.seen = JSON.stringify([...document.querySelectorAll("iframe")].map(look))}</script></body>"""
@@ -122,13 +124,14 @@ def looks(folder_of, tmp_path_factory):
 
 @pytest.mark.parametrize("kind", COMMANDS)
 def test_every_report_fits_a_phone_a_window_and_paper(looks, kind):
-    """Nothing is wider than its page, and no table than a phone, a window or a sheet; a tablet scrolls a table by
-    itself."""
+    """Nothing is wider than its page, and no table than the text in a phone, a window or on a sheet; a tablet scrolls a
+    table by itself."""
     for name, seen in looks[kind].items():
         assert seen["title"] == NAME and seen["head"].startswith(NAME) and seen["status"].startswith("Converged: ")
         assert seen["drawn"] and seen["images"] == PICTURES[kind]
         assert seen["width"] == WIDTHS[name] and seen["beyond"] <= 0 and len(seen["tables"]) > 5
         assert name == "tablet" or max(seen["tables"]) <= 0
+        assert max(seen["overhang"]) <= 0.5
 
 
 def test_a_report_opens_whole_and_runs_nothing(run, looks):

@@ -9,6 +9,7 @@ from small_study import SCENE, made_study, same
 
 import lubfric
 from lubfric.output import films_in_words, main
+from lubfric.output.rolling_part import without_small
 from lubfric.output.status import status_of_study
 from lubfric.output.study_answer import answer_lines
 from lubfric.output.study_inputs import common_inputs, range_in_a_line
@@ -496,3 +497,9 @@ def test_the_status_and_the_notes_of_a_study_count_the_same_points():
     (note,) = (each for each in study.gathered if each.violation.unit == "%" and "model-form" in each.violation.what)
     assert note.numbers == tuple(point + 1 for point in missed.points) == (1, 3)
     assert note.violation.value == pytest.approx(100 * missed.value, rel=1e-12)
+
+
+def test_a_small_rolling_resistance_is_a_bound_in_the_unit_of_its_column():
+    """It has 1 % of the power loss as the bound: 1.5 of 150 W; 30 W of 31 W are stated."""
+    cells = without_small(["0.9", "30"], np.array([0.9, 30.0]), np.array([150.0, 31.0]))
+    assert cells == ["< 1.5", "30"]
