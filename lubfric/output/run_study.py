@@ -66,7 +66,7 @@ def run_study(arguments: Namespace) -> None:
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     others = (STUDY_PICTURE, "report.html", BIBTEX_FILE, RESOLVED_SCENE, RESOLVED_STUDY)
     check_outputs(arguments, arguments.out, [*names, *others])
-    (explanation, expected, known) = studies.explained(plan, arguments.out, workers=workers)
+    (explanation, expected, known) = studies.explained(plan, arguments.out, workers=workers, refuses=True)
     say(explanation)
     given = studies.given_tables_of_study(arguments.study)
     begun = CommandStart.now()

@@ -256,10 +256,11 @@ def explain(plan: Any, store: Path | None = None, *, workers: int = 1) -> str:
 
 
 def explained(
-    plan: Any, store: Path | None = None, *, workers: int = 1
+    plan: Any, store: Path | None = None, *, workers: int = 1, refuses: bool = False
 ) -> tuple[str, dict[tuple[str, Any], float], int]:
     """Return what `explain` does; the estimated processor seconds of each point that is left, as `Left.points`; and the
-    number of points that the folder ``store`` has, identical ones counted once."""
+    number of points that the folder ``store`` has, identical ones counted once. With ``refuses`` raises `InputError` if
+    no point can be solved."""
     about = "about " if plan.chooses_speeds else ""
     different = plan.points if plan.chooses_speeds else sum(map(len, plan.requested.values()))
     once = f", {different} of them different: identical ones are solved once" if different < plan.points else ""
@@ -297,6 +298,8 @@ def explained(
         lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"]), {}, table.solved
     left = _left(plan, table)
+    if refuses and not left.models and not held:
+        _check_solvable(plan, table)
     lines += [f"  {text}" for text in (*warnings_of(plan), *left.warnings)]
     lines += [f"  interval {left.alpha}"] if left.alpha else []
     if left.models:
@@ -308,6 +311,19 @@ def explained(
         lines.append(f"  model    {', '.join(answers)} (numerics.model = {plan.scene.numerics.model!r})")
     lines += [f"  {text}" for text in _time_in_words(left, workers, "curves" if plan.chooses_speeds else "points")]
     return "\n".join([*lines, *dict.fromkeys(left.failed)]), left.points, table.solved
+
+
+def _check_solvable(plan: Any, table: StudyTable) -> None:
+    """Raise `InputError` with the first reason if none of the scenes that are left can be made ready."""
+    reasons = []
+    for curve, _, _ in sorted(table.left()):
+        try:
+            prepare(plan.scenes[curve])
+        except InputError as error:
+            reasons.append(error)
+        else:
+            return
+    raise InputError(f"no point of the study can be solved: {reasons[0]}") from reasons[0]
 
 
 def _time_in_words(left: Left, workers: int, what: str) -> Iterator[str]:

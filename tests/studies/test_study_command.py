@@ -88,6 +88,20 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
     assert studies.load_study(tmp_path / "out" / "resolved_study.toml").keys == result.plan.keys
 
 
+def test_a_study_of_which_no_point_can_be_solved_is_refused_before_any_work(tmp_path, capsys):
+    """A generated surface without contact.shape; one point that can be solved is reason enough to go on."""
+    (tmp_path / "small.toml").write_text(re.sub("shape = .*", "", SMALL.to_toml()))
+    (tmp_path / "loads.csv").write_text("load [N],speed [m/s]\n3,0.1\n5.5,0.3\n")
+    command = ["study", str(tmp_path / "small.toml"), "--points", str(tmp_path / "loads.csv")]
+    assert main([*command, "--out", str(tmp_path / "out")]) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert "no point of the study can be solved: contact.shape" in said and "[1/2]" not in said
+    assert not (tmp_path / "out").exists()
+    spacings = SMALL.contact.spacing, 1e-4
+    some = lubfric.plan_study(SMALL, {"contact.spacing": spacings}, [0.3])
+    assert "cannot be solved" in studies.explained(some, refuses=True)[0]
+
+
 @pytest.mark.parametrize("vary", [{}, {"bodies.load": [3.0, 5.5]}, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}])
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
@@ -584,8 +598,12 @@ def test_a_reason_that_many_points_fail_for_is_said_once(capsys):
     assert said.count("failed for the reason of point 1 (") == 10
 
 
-def test_a_study_without_a_solved_point_has_a_report(tmp_path, capsys):
-    (tmp_path / "s.toml").write_text(SMALL.with_(contact={"shape": None, "spacing": None}).to_toml())
+def test_a_study_without_a_solved_point_has_a_report(tmp_path, capsys, monkeypatch):
+    def fail(*_, **__):
+        raise lubfric.InputError("no film")
+
+    monkeypatch.setattr("lubfric.studies.points.friction", fail)
+    (tmp_path / "s.toml").write_text(SMALL.to_toml())
     (tmp_path / "study.toml").write_text('scene = "s.toml"\nspeeds = [0.1]\n[vary]\nbodies.load = [3.0, 5.5]\n')
     assert main(["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]) == 1
     said = capsys.readouterr().err
