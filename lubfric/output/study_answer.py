@@ -33,6 +33,8 @@ from .study_points import effects_at, error_in_words, parts_of_error
 MOST_CHECKED_EFFECTS = 500
 # Numbers on which the effects of the inputs are stated, with their symbols.
 OF_EFFECTS = {"coefficient": "f", "power_loss": "P"}
+# Errors that are within the intervals of the effects on f; those on P hold the error of the inputs as well.
+PARTS_OF_EFFECTS = ("numerical", "sampling", "model-form")
 # How the effects of inputs can be told apart.
 DRAW_INDEPENDENTLY = (
     "Vary the inputs independently: all combinations, or points drawn as [sample] of a study file does."
@@ -93,15 +95,16 @@ def answer_lines(result: StudyResult) -> list[str]:
 def _main_effects_lines(result: StudyResult) -> list[str]:
     """Return what the inputs that are varied do to f and to the power loss, each by itself, in a sentence each, or why
     that is not known; none where no designs vary."""
-    lines = [_effects_in_words(main_effects(result, name), symbol) for name, symbol in OF_EFFECTS.items()]
+    lines = [_effects_in_words(result, main_effects(result, name), symbol) for name, symbol in OF_EFFECTS.items()]
     why = why_not_separated(result)
     if why and design_keys(result.plan) and not any(lines):
         return [f"What each input does by itself is not known, because {why}. {DRAW_INDEPENDENTLY}"]
     return [line for line in lines if line]
 
 
-def _effects_in_words(effects: dict[str, MainEffect], symbol: str) -> str:
-    """Return the ``effects`` on the quantity with this ``symbol`` in a sentence; "" where there are none."""
+def _effects_in_words(result: StudyResult, effects: dict[str, MainEffect], symbol: str) -> str:
+    """Return the ``effects`` on the quantity with this ``symbol`` in a sentence, and why most of them are not known, if
+    so, in another; "" where there are none."""
     if not effects:
         return ""
     trends = {-1: [f"on average {symbol} falls with it"], 0: [], 1: [f"on average {symbol} rises with it"]}
@@ -118,7 +121,27 @@ def _effects_in_words(effects: dict[str, MainEffect], symbol: str) -> str:
     )
     return (
         f"Part of the variance of ln {symbol} that each input alone explains{within}: {'; '.join(words)}. The remaining "
-        "part comes from combinations of inputs."
+        f"part comes from combinations of inputs.{_why_not_known(result, effects, symbol)}"
+    )
+
+
+def _why_not_known(result: StudyResult, effects: dict[str, MainEffect], symbol: str) -> str:
+    """Return why the intervals of most ``effects`` hold all parts from none to the whole variance, and what narrows
+    them, in sentences; "" where they do not."""
+    ends = [effect.interval for effect in effects.values()]
+    unknown = sum(low < LEAST_STATED_SHARE and high > 1.0 - LEAST_STATED_SHARE for low, high in ends)
+    if 2 * unknown <= len(ends):
+        return ""
+    columns = columns_of_study(result)
+    parts = parts_of_error(columns, np.isfinite(columns["coefficient"]), [result.plan.scene])
+    named = PARTS_OF_EFFECTS if symbol == OF_EFFECTS["coefficient"] else (*PARTS_OF_EFFECTS, "input")
+    largest = max(named, key=lambda name: float(np.median(np.nan_to_num(parts[name].largest))))
+    way = f"a smaller {largest} error does"
+    if largest == "model-form":
+        way = "a model with a smaller model-form error does (numerics.model)"
+    return (
+        f" Most of these parts are not known, because the errors of {symbol}, of which the {largest} error is the "
+        f"largest, exceed its differences between the points; more points do not narrow them, {way}."
     )
 
 

@@ -182,6 +182,24 @@ def test_the_range_of_a_share_is_on_both_sides_of_it_and_contains_that_without_e
     assert np.mean(held) >= 0.9
 
 
+@pytest.mark.parametrize(
+    "column, error, way", [("model_error", 4.0, "a model with"), ("sampling_error", 2.0, "a smaller")]
+)
+def test_parts_are_not_known_where_errors_exceed_the_differences_of_f(column, error, way):
+    """ln f varies by a factor of 8; errors of f of its own size leave any part to each input, and more points do, too."""
+    vary = {"bodies.load": [1.0, 2.0, 4.0, 8.0], "lubricant.viscosity": [0.1, 0.2, 0.4, 0.8]}
+    result = numbered(vary, lambda scene: scene.bodies.load**-1.0 * scene.lubricant.viscosity**0.5)
+    zero = np.zeros(result.status.shape)
+    columns = result.columns | {"numerical_error": zero, "model_error": zero, "sampling_error": zero}
+    columns["sampling_freedom"] = zero + 30.0
+    texts = []
+    for size in (0.001, error):
+        wide = replace(result, columns=columns | {column: zero + size})
+        texts.append(next(line for line in study_answer.answer_lines(wide) if "variance of ln f" in line))
+    assert "not known" not in texts[0]
+    assert "Most of these parts are not known, because the errors of f" in texts[1] and f"{way} " in texts[1]
+
+
 def test_inputs_that_vary_together_have_no_shares_of_their_own():
     pairs = [(load, load / 10) for load in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)]
     result = numbered({("bodies.load", "lubricant.viscosity"): pairs}, lambda scene: scene.bodies.load)
