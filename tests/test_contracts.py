@@ -435,7 +435,7 @@ def test_a_further_model_has_no_paper_and_no_error_of_another(monkeypatch):
     loss = result.power_loss
     expected = (loss - math.hypot(*parts[0]), loss + math.hypot(*parts[1]))
     assert result.power_loss_interval == pytest.approx(expected, rel=1e-12)
-    monkeypatch.setattr(HighestSummit, "rolling_error", lambda self, lambda_ratio: 0.25)
+    monkeypatch.setattr(HighestSummit, "rolling_error", lambda self, lambda_ratio, film_growth: 0.25)
     result = lubfric.friction(scene, 0.03, model=HighestSummit())
     by_rolling = math.sqrt((result.power_loss_interval[1] - result.power_loss) ** 2 - parts[1][0] ** 2)
     assert by_rolling == pytest.approx(0.25 * (0.03 - 0.0075), rel=1e-9)

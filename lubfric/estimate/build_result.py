@@ -134,6 +134,8 @@ def _power_loss(
 ) -> PowerLoss:
     """Return the power loss of the ``answer`` of ``model`` at ``speed`` [m/s]; its ``numbers`` have the lambda
     ratio."""
+    film_load = numbers["film_load"]
+    growth = answer.errors.largest_film_load_ratio * scene.bodies.load / film_load if film_load > 0 else 1.0
     return power_loss_of(
         scene,
         speed=speed,
@@ -142,7 +144,7 @@ def _power_loss(
         coefficient_error=answer.errors.of_numbers.get("coefficient", math.nan),
         resistance=numbers["rolling_resistance"],
         resistance_error=answer.errors.of_numbers.get("rolling_resistance", math.nan),
-        resistance_model_error=model.rolling_error(numbers["lambda_ratio"]),
+        resistance_model_error=model.rolling_error(numbers["lambda_ratio"], max(growth, 1.0)),
     )
 
 

@@ -227,8 +227,9 @@ class Model(ABC):
         """
         return ()
 
-    def rolling_error(self, lambda_ratio: float) -> float:
-        """Return the relative model-form error of the rolling resistance, at 95 %; NaN: not known."""
+    def rolling_error(self, lambda_ratio: float, film_growth: float) -> float:
+        """Return the relative model-form error of the rolling resistance, at 95 %; NaN: not known. ``film_growth``: the
+        largest load that the film may carry by the error of that of the asperities, over the load that it carries."""
         return math.nan
 
     def takes_control(self, scene: Scene, sample: Sample) -> bool:

@@ -38,7 +38,7 @@ from lubfric.models.quick import (
     widening,
 )
 from lubfric.models.quick.calibrated_error import out_of_range
-from lubfric.models.shared import Assumption, speed_of
+from lubfric.models.shared import Assumption, smooth_rolling_resistance, speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -638,6 +638,18 @@ def test_friction_does_not_drive_the_sliding(ratio):
     rolling = result.coefficient - sliding
     assert result.uncertainty.interval[0] >= 2.0 * min(rolling, 0.0)
     assert 0.0 <= result.power_loss_interval[0] <= result.power_loss
+
+
+def test_the_power_loss_by_rolling_has_the_error_of_the_load_of_the_film():
+    """Oracle: the smooth film under that load and under the largest that the error of load sharing leaves it."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"model": "paper"} | LOOSE)
+    result = lubfric.friction(scene, 0.02)
+    share = result.contact_load / 5.5
+    most = 5.5 * min(1.0 - share + 0.7 * math.sqrt(share * (1.0 - share)), 1.0)
+    (resistance, _) = smooth_rolling_resistance(scene, 0.02, result.film_load)
+    (largest, _) = smooth_rolling_resistance(scene, 0.02, most)
+    high = result.power_loss_interval[1] / result.power_loss
+    assert most > 1.2 * result.film_load and 0.9 * largest / resistance < high < 1.3 * largest / resistance
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.005])

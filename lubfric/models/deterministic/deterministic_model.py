@@ -131,7 +131,7 @@ class DeterministicModel(Model):
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", "kept mass") if has_film else ("deterministic model",)
 
-    def rolling_error(self, lambda_ratio: float) -> float:
+    def rolling_error(self, lambda_ratio: float, film_growth: float) -> float:
         return rolling_model_error(lambda_ratio)
 
     def takes_control(self, scene: Scene, sample: Sample) -> bool:

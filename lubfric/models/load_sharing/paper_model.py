@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ...samples import Sample
 from ...scene import Scene, why_gap_not_resolved
 from ...surface import Surface
@@ -14,6 +16,7 @@ from ..shared import (
     Prepared,
     Violation,
     expected_in_film,
+    rolling_error_by_load,
     rolling_model_error,
 )
 from ..work_estimate import WorkEstimate
@@ -89,8 +92,8 @@ class PaperModel(Model):
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film)
 
-    def rolling_error(self, lambda_ratio: float) -> float:
-        return rolling_model_error(lambda_ratio)
+    def rolling_error(self, lambda_ratio: float, film_growth: float) -> float:
+        return math.hypot(rolling_model_error(lambda_ratio), rolling_error_by_load(film_growth))
 
     def solve(
         self,

@@ -394,7 +394,7 @@ class QuickModel(Model):
         of_sharing = methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film)
         return ("deterministic model", *of_film, *of_sharing)
 
-    def rolling_error(self, lambda_ratio: float) -> float:
+    def rolling_error(self, lambda_ratio: float, film_growth: float) -> float:
         return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:

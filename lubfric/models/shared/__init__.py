@@ -111,7 +111,7 @@ from .prepared import (
     way_to_shorter_cells,
     why_no_rough_film,
 )
-from .rolling import rolling_model_error, smooth_rolling_resistance
+from .rolling import rolling_error_by_load, rolling_model_error, smooth_rolling_resistance
 from .sides import UNKNOWN_SIDES, Sides, added_changes, added_sides, below_and_above
 from .sliding import is_by_sliding
 from .statistics import (
