@@ -73,8 +73,8 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
     return (
         f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
         f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} it "
-        f"changes f by {at_most_in_words(largest)}: {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient, from a data sheet or a "
-        "measurement, to remove it, or [value, low, high] to have the change solved and in the interval"
+        f"changes f by {at_most_in_words(largest)}: {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient, from a "
+        "data sheet or a measurement, to remove it, or [value, low, high] to have the change solved and in the interval"
     )
 
 
