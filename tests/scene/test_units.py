@@ -154,11 +154,8 @@ def test_the_command_line_takes_units():
         assert len(parse_speeds("--speeds", two.strip("'"))) == 2
     assert parse_speeds("--speeds", "1,2,3") == [1.0, 2.0, 3.0]
     assert parse_speeds("--speeds", "1,0.5") == [1.0, 0.5]
-    for option, text, unit in (
-        ("--speeds", "0.001,2cm/s", "m/s"),
-        ("--ratios", "1, 5 %", "-"),
-        ("--speeds", "1:5 m/s:9", "m/s"),
-    ):
+    assert parse_speeds("--speeds", "1:5 cm/s:3") == pytest.approx([0.01, 0.01 * math.sqrt(5), 0.05])
+    for option, text, unit in (("--speeds", "0.001,2cm/s", "m/s"), ("--ratios", "1, 5 %", "-")):
         with pytest.raises(lubfric.InputError, match="without one"):
             parse_speeds(option, text, unit)
     with pytest.raises(lubfric.InputError, match="--speeds .*is in N"):
