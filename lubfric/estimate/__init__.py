@@ -26,7 +26,7 @@ from .inputs_to_quote import (
     varied_to_quote,
 )
 from .methods import MethodUse, methods_of
-from .power import power_of_forces, rolling_resistance_error
+from .power import power_of_forces
 from .ranges import with_input_ranges
 from .result import FrictionResult, cite_together, cited, shared_inputs
 from .solve_to_tolerance import solve_to_tolerance

@@ -89,6 +89,7 @@ def result_of(
         errors=number_errors_of(numbers, errors, answer.errors.why_not_known, answer.errors.reasons),
         decision=decision,
         power_loss_interval=loss.interval,
+        rolling_resistance_interval=loss.resistance_interval,
         validity=violations,
         unmodelled_effects=unmodelled_effects(
             scene, prepared.surface.sq, speed, friction_parts, includes_motion=choice.model.includes_motion

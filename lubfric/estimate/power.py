@@ -24,19 +24,15 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
     return force * sliding + resistance * (entrainment - 0.5 * sliding)
 
 
-def rolling_resistance_error(error: float, by_model: float) -> float:
-    """Return the relative error of the rolling resistance at 95 %: twice its standard ``error``, and that ``by_model``
-    at 95 % (`lubfric.models.Model.rolling_error`)."""
-    return math.hypot(2.0 * error, by_model)
-
-
 @dataclass(frozen=True, kw_only=True)
 class PowerLoss:
-    """The power loss of a point [W], its 95 % ``interval`` [W] and its relative ``error``."""
+    """The power loss of a point [W], its 95 % ``interval`` [W], its relative standard ``error``, and the 95 % interval
+    of the rolling resistance [N]; NaN: not known."""
 
     value: float
     interval: tuple[float, float]
     error: float
+    resistance_interval: tuple[float, float]
 
 
 def power_loss_of(
@@ -70,20 +66,18 @@ def power_loss_of(
     load = scene.bodies.load
     loss = power_of_forces(sense * coefficient * load, resistance, speed, sliding)
     rolling = resistance * (speed - 0.5 * sliding)
-    has_known_errors = math.isfinite(resistance_error + resistance_model_error)
+    of_resistance = math.hypot(2.0 * resistance_error, resistance_model_error)
     distances = []
     for end in interval:
         by_sliding = (end - coefficient) * load * abs(sliding)
-        of_rolling = (
-            rolling_resistance_error(resistance_error, resistance_model_error)
-            if has_known_errors
-            else abs(end / coefficient - 1.0)
-        )
+        of_rolling = of_resistance if math.isfinite(of_resistance) else abs(end / coefficient - 1.0)
         distances.append(math.hypot(by_sliding, of_rolling * rolling if rolling else 0.0))
-    of_resistance = math.hypot(resistance_error, 0.5 * resistance_model_error)
-    parts = (coefficient_error * abs(coefficient * load * sliding), of_resistance * rolling if rolling else 0.0)
+    by_rolling = 0.5 * of_resistance * rolling if rolling else 0.0
+    distance = of_resistance * abs(resistance)
+    parts = (coefficient_error * abs(coefficient * load * sliding), by_rolling)
     return PowerLoss(
         value=loss,
         interval=(max(loss - distances[0], min(loss, 0.0)), loss + distances[1]),  # no contact delivers power
         error=math.hypot(*parts) / abs(loss) if loss else 0.0,
+        resistance_interval=(resistance - distance, resistance + distance),
     )

@@ -48,6 +48,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
     decision : which model answered, what was solved, and why; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
+    rolling_resistance_interval : 95 % interval of the rolling resistance [N], (low, high); NaN: not known
     validity : the assumptions that do not hold (`lubfric.Violation`). A severe one is there only where it was accepted
     unmodelled_effects : effects that are not modelled, each with the likely change of f (relative; NaN: not known) and
         a recommendation, the largest first; without those that would change f by less than the tolerance
@@ -64,6 +65,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     errors: NumberErrors
     decision: Decision
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
+    rolling_resistance_interval: tuple[float, float] = (math.nan, math.nan)
     validity: tuple[Violation, ...] = ()
     unmodelled_effects: tuple[UnmodelledEffect, ...] = ()
     methods: tuple[str, ...] = ()

@@ -120,7 +120,7 @@ def _largest_parts(scene: Scene, answer: ModelAnswer) -> tuple[float, float]:
     rolling part."""
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
-    return sliding, answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
+    return sliding, max(map(abs, answer.rolling_ratios)) * (0.0 if math.isnan(rolling) else rolling)
 
 
 def _largest_where_shared(scene: Scene, answer: ModelAnswer, largest: float, uncertainty: Uncertainty) -> float:
@@ -143,9 +143,8 @@ def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertain
     """
     f = answer.numbers["coefficient"]
     sliding = sum(answer.numbers.get(force, math.nan) for force in SLIDING_FORCES) / scene.bodies.load
-    rolling = answer.most_rolling_ratio * (f - sliding)
-    rolling = -abs(rolling) if answer.omits_flanks else rolling
-    least = min(0.0, 0.0 if math.isnan(rolling) else rolling, f)
+    rolling = f - sliding
+    least = min(0.0, f, *(ratio * (0.0 if math.isnan(rolling) else rolling) for ratio in answer.rolling_ratios))
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):
         return uncertainty

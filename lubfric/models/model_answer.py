@@ -145,8 +145,8 @@ class ModelAnswer:
     errors : of f and of the other numbers
     accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
     narrows_numerical : what narrows ``numerical`` where it is within the tolerance, as text
-    most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
-    omits_flanks : whether the pressure on the flanks of moving roughness is omitted: that part may have the other sign
+    rolling_ratios : the smallest and the largest that the rolling part of f may be, over its value; they bound the
+        interval. Below 0: the part may have the other sign
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
         (section.key, one of `lubfric.scene.inputs_not_given`); no part of the model-form error
     length, effective_contacts : of the sample (`lubfric.estimate.Uncertainty`)
@@ -167,8 +167,7 @@ class ModelAnswer:
     decision: Decision
     accepts_model_error: bool = False
     narrows_numerical: str = REDUCED_BY_TOLERANCE
-    most_rolling_ratio: float = 2.0
-    omits_flanks: bool = False
+    rolling_ratios: tuple[float, float] = (0.0, 2.0)
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     length: float = math.nan
     effective_contacts: float = math.nan

@@ -17,21 +17,18 @@ from ..estimate import (
     estimated_work_of_point,
     expected_of_sample,
     expected_violations,
-    rolling_resistance_error,
     seconds_of_points,
 )
 from ..models import (
     ALL_TOUCH,
     AUTO,
     FEW_TOUCH,
-    MODELS,
     NONE_TOUCHES,
     MeasuredTime,
     model_named,
     models_up_to,
     prepare_on_sample,
 )
-from ..models.load_sharing import largest_film_load_ratio
 from ..models.shared import (
     Assumption,
     ExpectedEffect,
@@ -44,7 +41,6 @@ from ..models.shared import (
     gathered,
     inlet_at,
     percent,
-    rolling_model_error,
     student,
     violations_by_form,
     violations_by_strips,
@@ -160,16 +156,6 @@ class SceneEstimate:
     run: RunEstimate | None = None
 
 
-def _rolling_model_error(point: FrictionResult) -> float:
-    """Return the relative model-form error of the rolling resistance of ``point``, that of its model."""
-    model = next((model for model in MODELS if model.name == point.decision.model), None)
-    load = point.contact_load + point.film_load
-    if model is None or not point.film_load > 0:
-        return rolling_model_error(point.lambda_ratio)
-    most = largest_film_load_ratio(point.film_to_roughness_ratio, point.contact_load / load)
-    return model.rolling_error(point.lambda_ratio, max(most * load / point.film_load, 1.0))
-
-
 def rolling_in_words(point: FrictionResult) -> str:
     """Return how much of the power loss of ``point`` is rolling resistance, and of a large part its error at 95 %, as
     text to be appended; "" for a small part."""
@@ -177,7 +163,8 @@ def rolling_in_words(point: FrictionResult) -> str:
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         return ""
     part = as_beside(rolling, point.power_loss, *point.power_loss_interval, unit="W")
-    error = rolling_resistance_error(point.errors.rolling_resistance, _rolling_model_error(point))
+    (low, high) = point.rolling_resistance_interval
+    error = 0.5 * (high - low) / abs(point.rolling_resistance)
     is_stated = rolling > LARGE_ROLLING_PART * abs(point.power_loss) and math.isfinite(error)
     return f", of which {part} is rolling resistance{f' (± {percent(error)})' if is_stated else ''}"
 

@@ -19,7 +19,7 @@ from ..estimate import (
     inputs_to_quote,
     methods_of,
 )
-from ..models.load_sharing import OF_ROLLING, STATIONARY_ROLLING_RATIO, largest_film_load_ratio
+from ..models.load_sharing import STATIONARY_ROLLING_RATIOS, largest_film_load_ratio, rolling_ratios_of
 from ..models.shared import (
     UNKNOWN_SIDES,
     GatheredTexts,
@@ -145,7 +145,8 @@ class TransientResult(Renamed, Shown):
     model : that answers, by its `lubfric.models.Model.name`
     methods : names of the published methods used; ``cite()`` gives the publications
     stated_inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
-    most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
+    rolling_ratios : the smallest and the largest that the rolling part of f may be, over its value; they bound the
+        interval
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
         if not known
@@ -168,7 +169,7 @@ class TransientResult(Renamed, Shown):
     model: str = ""
     methods: tuple[str, ...] = ()
     stated_inputs: tuple[str, ...] = ()
-    most_rolling_ratio: float = STATIONARY_ROLLING_RATIO
+    rolling_ratios: tuple[float, float] = STATIONARY_ROLLING_RATIOS
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this run, the model's first: one a line, or with ``format``
@@ -318,8 +319,8 @@ class TransientResult(Renamed, Shown):
         unknown = np.full(f.size, math.nan)
         below, above = np.broadcast_to(self.inputs, (2, f.size))
         sides = [self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high")]
-        interval = interval_in_time(self.columns, below, above, self.most_rolling_ratio)
-        least, most = limits_in_time(self.columns, self.most_rolling_ratio)
+        interval = interval_in_time(self.columns, below, above, self.rolling_ratios)
+        least, most = limits_in_time(self.columns, self.rolling_ratios)
         cuts = [
             tuple(
                 text.format(NAME_OF_INTERVAL[True]) for text, is_cut in zip((CUT_AT_ZERO, CUT_AT_LIMIT), both) if is_cut
@@ -409,7 +410,10 @@ def errors_in_time(
 
 
 def interval_in_time(
-    columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray, most_rolling_ratio: float
+    columns: dict[str, np.ndarray],
+    inputs_below: np.ndarray,
+    inputs_above: np.ndarray,
+    rolling_ratios: tuple[float, float],
 ) -> np.ndarray:
     """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`, and as of
     `TransientResult`. A part that is not known is not in it; NaN where sampling is not known, and at rest. Friction
@@ -418,27 +422,30 @@ def interval_in_time(
     parts = errors_in_time(columns, inputs_below, inputs_above).values()
     below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
-    least, most = limits_in_time(columns, most_rolling_ratio)
+    least, most = limits_in_time(columns, rolling_ratios)
     ends = np.stack([np.maximum(f - below, least), np.minimum(f + above, most)], axis=1)
     return np.where(unknown[:, None], math.nan, ends)
 
 
-def limits_in_time(columns: dict[str, np.ndarray], most_rolling_ratio: float) -> tuple[np.ndarray, np.ndarray]:
+def limits_in_time(
+    columns: dict[str, np.ndarray], rolling_ratios: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the smallest f that resists the sliding, and the largest by the limits of the shear stress, at every time,
     (nt,) each, between which an interval ends; arguments as of `TransientResult`."""
     f = columns["coefficient"]
     allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
     most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     rolling = columns.get("rolling_force", np.zeros(f.size)) * sense_of_friction_over_time(columns) / columns["load"]
-    part = most_rolling_ratio * np.nan_to_num(rolling)
-    omits_flanks = most_rolling_ratio > STATIONARY_ROLLING_RATIO  # that part may have the other sign
-    by_rolling = np.minimum(np.minimum(-np.abs(part) if omits_flanks else part, f), 0.0)
+    parts = np.multiply.outer(rolling_ratios, np.nan_to_num(rolling))
+    by_rolling = np.minimum(np.minimum(parts.min(axis=0), f), 0.0)
     return np.where(columns["sliding_speed"] != 0, by_rolling, -most), most
 
 
-def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray], most_rolling_ratio: float) -> np.ndarray:
+def largest_friction_in_time(
+    scene: Scene, columns: dict[str, np.ndarray], rolling_ratios: tuple[float, float]
+) -> np.ndarray:
     """Return the largest |f| that the limits of the shear stress allow in ``scene`` at every time, (nt,)
-    (`lubfric.models.shared.largest_friction`); ``most_rolling_ratio``: as of `TransientResult`."""
+    (`lubfric.models.shared.largest_friction`); ``rolling_ratios``: as of `TransientResult`."""
     sliding = columns["sliding_speed"]
     radii = [value_at(scene, "radius", scene.bodies.radius, time) for time in columns["time"]]
     moments = [
@@ -452,7 +459,7 @@ def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray], most_
             largest_of_each(_with_boundary_friction(scene, speed), [moment])[0]
             for moment, speed in zip(moments, sliding.tolist())
         ]
-    by_rolling = most_rolling_ratio * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
+    by_rolling = max(map(abs, rolling_ratios)) * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
     largest = np.array(by_sliding, float)
     if not run_model_of(scene).solves_rough_film:
         largest = _beside_asperities(largest, _largest_boundary_friction(scene, sliding), columns)
@@ -486,7 +493,7 @@ def _with_boundary_friction(scene: Scene, sliding: float) -> Scene:
 
 
 def _with_intervals(
-    columns: dict[str, np.ndarray], inputs: np.ndarray, most_rolling_ratio: float
+    columns: dict[str, np.ndarray], inputs: np.ndarray, rolling_ratios: tuple[float, float]
 ) -> dict[str, np.ndarray]:
     """Return ``columns`` with the intervals of f and of the power loss [W].
 
@@ -494,7 +501,7 @@ def _with_intervals(
     100 %. Friction takes power and gives none, so the interval of the power ends at 0.
     """
     inputs_below, inputs_above = inputs
-    interval = interval_in_time(columns, inputs_below, inputs_above, most_rolling_ratio)
+    interval = interval_in_time(columns, inputs_below, inputs_above, rolling_ratios)
     f = columns["coefficient"]
     by_sliding = columns["load"] * np.abs(columns["sliding_speed"])
     rolling = columns["power_loss"] - columns["friction_force"] * columns["sliding_speed"]
@@ -554,10 +561,10 @@ def collect(
     not_in = tuple(f"range of {name.partition('.')[2]}: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
     is_omitted = roughness_moves(prepared.scene) and not may_move_roughness(prepared.scene)
-    ratio = OF_ROLLING if is_omitted else STATIONARY_ROLLING_RATIO
-    columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns, ratio)
+    ratios = rolling_ratios_of(omits_flanks=is_omitted)
+    columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns, ratios)
     return TransientResult(
-        columns=_with_intervals(columns, inputs, ratio),
+        columns=_with_intervals(columns, inputs, ratios),
         x=model.x,
         pressure=np.array([output.pressure for output in outputs]).reshape(shape),
         film_thickness=np.array([output.film_thickness for output in outputs]).reshape(shape),
@@ -568,7 +575,7 @@ def collect(
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,
-        most_rolling_ratio=ratio,
+        rolling_ratios=ratios,
         requested=plan.times,
         model_form_unknown=model.model_form_unknown,
         model=run_model_of(prepared.scene).model.name,

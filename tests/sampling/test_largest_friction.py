@@ -121,7 +121,7 @@ def test_at_a_steady_point_only_the_load_of_the_film_may_rub_more_than_f_b(frict
     assert 0.2 <= most < 0.21
     ratio = min(solved.numbers["film_to_roughness_ratio"], 1.0)
     film = min(1 - share + max(0.7 * math.sqrt(share * (1 - share)), 0.1 * ratio), 1.0)
-    rolling = abs(answer.most_rolling_ratio * solved.numbers["rolling_force"] / scene.bodies.load)
+    rolling = abs(max(answer.rolling_ratios) * solved.numbers["rolling_force"] / scene.bodies.load)
     expected = f_b + (most - f_b) * film + rolling
     high = uncertainty_of(prepared, answer).interval[1]
     assert high == pytest.approx(expected, rel=1e-6)

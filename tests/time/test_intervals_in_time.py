@@ -271,7 +271,7 @@ def test_of_the_largest_friction_of_the_film_only_its_part_of_the_load_counts():
     scene = paper_scene(bodies={"boundary_friction_coefficient": 0.09}).with_(transient=Transient(1.0))
     columns = {"time": np.zeros(3), "sliding_speed": np.full(3, 0.1), "load": np.full(3, 5.0)}
     columns |= {"contact_load": np.array([0.0, 2.5, 4.95]), "film_to_roughness_ratio": np.full(3, 2.0)}
-    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.zeros(3)}, 2.0)
+    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.zeros(3)}, (0.0, 2.0))
     assert largest[0] > 0.09
     np.testing.assert_allclose((largest - 0.09) / (largest[0] - 0.09), [1.0, 0.85, 0.11])
 
@@ -285,7 +285,7 @@ def test_the_largest_f_with_a_table_of_f_b_is_that_of_the_sliding_speed_of_the_m
     ).with_(transient=plan)
     columns = {"time": np.array([0.0, 1.0]), "sliding_speed": np.array([0.2, -0.8]), "load": np.full(2, 5.0)}
     columns |= {"contact_load": np.full(2, 1.0), "film_to_roughness_ratio": np.ones(2)}
-    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.array([0.0, -0.01])}, 2.0)
+    largest = largest_friction_in_time(scene, columns | {"rolling_force": np.array([0.0, -0.01])}, (0.0, 2.0))
     np.testing.assert_allclose(largest, [0.13, 0.07 + 2 * 0.01 / 5.0])
 
 

@@ -13,13 +13,13 @@
 from .balance import Balance, is_separated, solve_balance
 from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import (
-    OF_ROLLING,
     OF_SHARE,
-    STATIONARY_ROLLING_RATIO,
+    STATIONARY_ROLLING_RATIOS,
     largest_film_load_ratio,
     least_error,
     load_sharing_error,
     load_sharing_error_parts,
+    rolling_ratios_of,
     starved_error,
 )
 from .errors_of import moment_model_error, why_moment_unknown

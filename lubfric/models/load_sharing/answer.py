@@ -25,7 +25,7 @@ from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .closure import gap_per_film, gap_under, open_gap, volume_residual
 from .decision_in_words import decision_of
-from .error_of_eq8 import OF_ROLLING, STATIONARY_ROLLING_RATIO
+from .error_of_eq8 import rolling_ratios_of
 from .errors_of import errors_of
 from .limits import limits_exceeded
 from .response import contact_length, point_numbers
@@ -50,8 +50,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         numbers=numbers,
         errors=errors_of(balanced),
         accepts_model_error=scene.numerics.model == "paper",  # a scene that names this model accepts its error
-        most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else STATIONARY_ROLLING_RATIO,
-        omits_flanks=has_moving_roughness(scene),
+        rolling_ratios=rolling_ratios_of(omits_flanks=has_moving_roughness(scene)),
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decision_of(
             scene,

@@ -24,9 +24,9 @@ MOST_OF_FILM = 0.3
 # verification model --only rolling`).
 OF_ROLLING = 8.0
 
-# Largest rolling part of f over its value where no roughness moves: it bounds intervals. A choice: none was seen above
-# 1.
-STATIONARY_ROLLING_RATIO = 2.0
+# Smallest and largest rolling part of f over its value where no roughness moves: they bound intervals. A choice: none
+# was seen above 1.
+STATIONARY_ROLLING_RATIOS = (0.0, 2.0)
 
 # Error of f towards 0 and away from it, over the filled part of the gap, where a given film arrives (`starved_error`).
 # Measured by that command.
@@ -83,6 +83,12 @@ class LoadSharingErrorParts:
     of_film: float
     of_flanks: float
     in_contact: float
+
+
+def rolling_ratios_of(*, omits_flanks: bool) -> tuple[float, float]:
+    """Return the smallest and the largest that the rolling part of f may be, over its value. ``omits_flanks``: whether
+    the pressure on the flanks of moving roughness is omitted, which may have the other sign."""
+    return (-OF_ROLLING, OF_ROLLING) if omits_flanks else STATIONARY_ROLLING_RATIOS
 
 
 def load_sharing_error_parts(
