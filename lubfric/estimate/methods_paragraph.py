@@ -72,14 +72,29 @@ def methods_paragraph(
 
 def _cells(decisions: Sequence[Decision]) -> list[str]:
     """Return on how many strips and cells the points were solved; nothing where none has cells."""
-    joined = [(each.strips, each.shape) for each in decisions if each.shape is not None]
-    single = [(each.strips, each.cells_of_strip) for each in decisions if each.cells_of_strip is not None]
-    return [
-        f"{_span([strips for strips, _ in sizes])} strip{'s' if max(sizes)[0] > 1 else ''} of "
-        f"{_span([nx for _, (nx, _) in sizes])} x {_span([ny for _, (_, ny) in sizes])} cells {how}"
-        for sizes, how in ((joined, "in all (dry contact)"), (single, "each (film and contact)"))
-        if sizes
+    joined = [(each.strips, each.shape, each.cell_size) for each in decisions if each.shape is not None]
+    single = [
+        (each.strips, each.cells_of_strip, each.cell_size) for each in decisions if each.cells_of_strip is not None
     ]
+    return [
+        f"{_span([strips for strips, *_ in solved])} strip{'s' if max(solved)[0] > 1 else ''} of "
+        f"{_span([nx for _, (nx, _), _ in solved])} x {_span([ny for _, (_, ny), _ in solved])} cells {how}"
+        f"{_cell_sizes([size for *_, size in solved if size is not None])}"
+        for solved, how in ((joined, "in all (dry contact)"), (single, "each (film and contact)"))
+        if solved
+    ]
+
+
+def _cell_sizes(sizes: Sequence[tuple[float, float]]) -> str:
+    """Return the range of the ``sizes`` [m] of cells along the motion and along the line, as text behind their number;
+    "" without sizes."""
+    if not sizes:
+        return ""
+    (along, across) = (
+        worded(tuple(dict.fromkeys((min(lengths), max(lengths)))), "m").replace(" and ", " to ")
+        for lengths in zip(*sizes)
+    )
+    return f", {along} long along the motion and {across} along the line"
 
 
 def _span(numbers: Sequence[int]) -> str:

@@ -12,6 +12,7 @@ from .bodies import (
     SLIP_KEY,
     Bodies,
     ContactDomain,
+    FrictionTable,
     Motion,
 )
 from .file import (

@@ -71,13 +71,21 @@ def cites_methods(scene):
 
 def test_the_paragraph_states_the_inputs_that_all_points_share():
     """With their units; the peak pressure of Hertz is sqrt(F E'/(2 π B R))."""
-    scene = KNOWN.with_(lubricant={"eyring_stress": 5e6}, bodies={"boundary_film": 15e-9})
-    point = lubfric.friction(scene, 0.03, raise_on_failure=False)
+    scene = KNOWN.with_(
+        lubricant={"eyring_stress": 5e6, "density_law": "dowson-higginson"}, bodies={"boundary_film": 15e-9}
+    )
+    point = lubfric.friction(scene, 0.03, raise_on_failure=False, fields=True)
     (stated,) = re.findall(r"The inputs are: (.*?)\. The methods", point.cite("methods"))
+    by_length = 1e6 * (point.fields.x[1] - point.fields.x[0])
+    by_width = 1e6 * (point.fields.y[1] - point.fields.y[0])
+    assert f"cells in all (dry contact), {by_length:.4g} µm long along the motion and {by_width:.4g} µm" in stated
     b = scene.bodies
     peak = (b.load * b.e_prime / (2 * math.pi * b.width * b.radius)) ** 0.5
     nx, ny = point.decision.shape
     for words in (
+        "viscosity over pressure of Roelands; density over pressure of Dowson and Higginson",
+        "film of the load-sharing model deformed by its own pressure alone",
+        "error targets of f 5 % (numerical), 2 % (sampling, standard error), 5 % (model-form)",
         f"Sq {1e9 * scene.surface.sq:.4g} nm; correlation length {1e6 * scene.surface.correlation_length:.4g} µm",
         f"height map generated with the seed {scene.surface.seed}; smooth counterface",
         f"viscosity index {scene.lubricant.oil.index:.4g}; oil temperature 60 °C; density ",

@@ -17,6 +17,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.estimate import inputs_to_quote
 from lubfric.samples import contact_maps
 from lubfric.scene import SECTIONS
 
@@ -185,6 +186,32 @@ def test_each_key_of_a_corner_moves_the_number(corner, key):
     scene, undone = CORNERS[corner]
     section, name = key
     assert moved(scene, lambda: scene.with_(**{section: {name: undone[key]}})) > MOVES
+
+
+# Keys that the inputs to quote do not state by themselves, or whose value a corner is refused without.
+NOT_QUOTED = {("motion", "entrainment_speed"), ("contact", "geometry"), ("contact", "model")}
+
+
+@pytest.mark.parametrize(
+    "corner, key", [(c, k) for c, (_, keys) in CORNERS.items() for k in keys if k not in NOT_QUOTED]
+)
+def test_the_inputs_to_quote_state_each_key_of_a_corner(corner, key):
+    """What moves f is in the paragraph, so that another can repeat the calculation."""
+    scene, undone = CORNERS[corner]
+    section, name = key
+    stated = {*inputs_to_quote(scene, takes_boundary_film=False)}
+    assert stated != {*inputs_to_quote(scene.with_(**{section: {name: undone[key]}}), takes_boundary_film=False)}
+
+
+def test_the_inputs_to_quote_state_the_kind_of_contact():
+    kinds = [{"geometry": "cylinder"}, {"geometry": "flat"}, {"model": "summits"}, {"model": "patches"}]
+    assert len({inputs_to_quote(BASE.with_(contact=kind)) for kind in kinds}) == len(kinds)
+
+
+@pytest.mark.parametrize("key", [key for key in FILE if key not in ("unit", "decimal", "missing_value")])
+def test_the_inputs_to_quote_state_how_a_map_was_prepared(measured, key):
+    scene = file_corner(measured, "surface")
+    assert inputs_to_quote(scene) != inputs_to_quote(scene.with_(surface={key: PLAIN[key]}))
 
 
 @pytest.mark.parametrize("model", ["paper", "deterministic"])

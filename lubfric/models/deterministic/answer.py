@@ -341,6 +341,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
         tolerance=tolerance,
         strips=len(results),
         cells_of_strip=results[0].pressure.shape,
+        cell_size=results[0].spacing,
         heat_in_words=known,
         notes=notes,
     )

@@ -57,7 +57,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
             balanced.rough_contact,
             balanced.corrected_balance,
             clearance=numbers["clearance"],
-            coarsening=balanced.sample.cells.coarsening,
+            cells=balanced.sample.cells,
             strips=balanced.count,
             change_by_cells=balanced.relative_change(balanced.effect.gap_change),
         ),

@@ -3,6 +3,7 @@
 import math
 
 from ...contact import RoughContact
+from ...samples import Cells
 from ...scene import Scene, budget
 from ..shared import Decision, percent_or_less
 from .balance import Balance
@@ -14,13 +15,14 @@ def decision_of(
     balance: Balance,
     *,
     clearance: float,
-    coarsening: tuple[int, int],
+    cells: Cells,
     strips: int,
     change_by_cells: float,
 ) -> Decision:
     """Return the decision of the paper's model behind ``balance`` on ``rough_contact``.
 
-    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; others are fields of `Decision`.
+    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``cells``: of the strips; others are
+    fields of `Decision`.
     """
     tolerance = scene.numerics.tolerance
     film = balance.film
@@ -42,7 +44,8 @@ def decision_of(
         shape=grid if touching else None,
         heat_in_words=heat,
         notes=notes,
-        coarsening=coarsening,
+        coarsening=cells.coarsening,
+        cell_size=cells.spacing if touching else None,
         strips=strips,
         change_by_cells=change_by_cells,
     )

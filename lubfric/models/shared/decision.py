@@ -20,6 +20,7 @@ class Decision(Renamed):
     coarsening : length of these cells in native ones, along each axis
     strips : number of strips of the surface that were solved
     cells_of_strip : cells (nx, ny) of a strip whose film was solved with its contact; None: none was
+    cell_size : length (dx, dy) [m] of the cells of ``shape`` or ``cells_of_strip``, along the motion and along the line
     change_by_cells : relative change of f by native cells, for which it is corrected
     heat_in_words : which heat was modelled; "": none can be
     notes : what else a reader should know
@@ -37,6 +38,7 @@ class Decision(Renamed):
     coarsening: tuple[int, int] = (1, 1)
     strips: int = 1
     cells_of_strip: tuple[int, int] | None = None
+    cell_size: tuple[float, float] | None = None
     change_by_cells: float = 0.0
     heat_in_words: str = ""
     notes: tuple[str, ...] = ()
