@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 import lubfric
 from lubfric.models.deterministic import (
     RoughBody,
-    answer,
     continued_strip,
     lay_out,
     solve_moving_strip,
     solve_point,
     solve_strip,
+    violations_of_strips,
 )
 from lubfric.models.deterministic.expected_friction import REDISTRIBUTED
 from lubfric.models.load_sharing import least_error, starved_error
@@ -836,7 +836,7 @@ def test_the_interval_has_the_error_of_the_assumed_gap_where_touching_cells_give
     (note,) = (entry for entry in result.validity if entry.assumption == Assumption.LUBRICANT_PASSES)
     assert note.is_note
     (stated,) = re.findall(r"the interval of f includes an error of ([0-9.]+) % for this", note.consequence)
-    monkeypatch.setattr(answer, "error_by_gap", lambda *args, **kwargs: 0.0)
+    monkeypatch.setattr(violations_of_strips, "error_by_gap", lambda *args, **kwargs: 0.0)
     without = lubfric.friction(scene, 1e-4)
     assert without.coefficient == result.coefficient
     by_gap = math.sqrt(result.uncertainty.model**2 - without.uncertainty.model**2)

@@ -1,6 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .answer import answer_of, error_by_gap, violations_by_correction
+from .answer import answer_of, violations_by_correction
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
@@ -51,3 +51,4 @@ from .strip_on_two_grids import (
 )
 from .summits import SummitControl, attenuated, control_of
 from .time_and_place import TimeAndPlace, least_blocks, mean_over_blocks
+from .violations_of_strips import error_by_gap

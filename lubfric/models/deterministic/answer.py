@@ -16,7 +16,6 @@ from ..load_sharing import largest_film_load_ratio
 from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
-    GIVE_LIMIT,
     PLACE_BLOCK,
     SAMPLING_ERROR,
     SAMPLING_ERROR_MISSED,
@@ -37,17 +36,11 @@ from ..shared import (
     is_near_zero,
     limit_bounds,
     limit_in_words,
-    peak_hertz_pressure,
     percent_beside,
     percent_or_less,
     sides_of_parts,
     smooth_rolling_resistance,
     standard_error_in_words,
-    violations_by_heat,
-    violations_by_inlet,
-    violations_by_motion,
-    violations_by_pressure,
-    violations_by_thickness,
     way_to_shorter_cells,
     why_map_too_small,
     why_sample_too_short,
@@ -56,16 +49,17 @@ from ..shared import (
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
-from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
+from .heat_of_strip import strip_heat, warmed
 from .ladder import EndOfCells
 from .levels import Levels, mean
-from .problem import BOUNDARY_FILM, MOST_GRID_CELLS
+from .problem import MOST_GRID_CELLS
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of_contact, map_of_strip, summit_control
 from .scatter import samples_over_time
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import SampleCoarsening, StripOnTwoGrids, patch_coarsening_to_look_at, sample_coarsening_of
 from .time_and_place import least_blocks
+from .violations_of_strips import BY_GAP, error_by_gap_of, violations_of_strips
 
 BY_PLACES = "the scatter of the difference between the models from strip to strip"
 LESS_BY_TOLERANCE = "set a smaller numerics.model_tolerance to reduce it"
@@ -90,12 +84,6 @@ TOO_MANY_CELLS = (
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
-# Where a local peak of the film pressure is, by whether asperities carry load. The picture of the contact is of another
-# solve, with the contacts.
-FILM_OF_STRIPS = {
-    True: "of single cells of the film, next to asperity contacts",
-    False: "of single cells of the film over the roughness",
-}
 # What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of
 # the asperity load.
 RUBS = {
@@ -117,21 +105,12 @@ SMALLER_SOLVE_TOLERANCE = "set a smaller numerics.tolerance"
 # .023, a gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
 
-# Share of the lubricant out of touching cells above which a note reports how f depends on the assumed gap between them.
-# A choice: less reports more points.
-MOST_GIVEN_OFF = 0.1
-BY_GAP = "the assumed gap of 1 nm between touching cells"
-
 # Correction of f by the summits of the sample [-] above which a note states it whatever the sampling error is. A
 # convention: the usual model_tolerance.
 LARGE_CORRECTION = 0.05
 
 # The same, below which none does. A convention: the usual tolerance.
 SMALL_CORRECTION = 0.01
-
-# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
-# less warns of more points.
-CUT = 0.1
 
 
 def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
@@ -150,21 +129,11 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     sampling_error = levels.sampling_error
     if not math.isfinite(sampling_error.value):
         sampling_error = replace(sampling_error, value=math.nan)
-    by_scatter = half_width_of_error(levels.difference_error.value, levels.difference_error.freedom)
     with_thinner, with_thicker = levels.by_film
     by_input_not_given = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
-    by_flow = abs(levels.by_flow)
-    by_heat = error_by_heat(heat, levels.by_inlet)
     of_heat = heat_error_in_words(heat, levels.by_inlet, scene.numerics.tolerance, is_at_most=False)
-    by_gap = _error_by_gap(results)
     by_limit = _by_limit(scene, results)
-    parts_of_model = (
-        ModelErrorPart(sides=(by_scatter, by_scatter), cause=BY_PLACES, recommendation=LESS_BY_TOLERANCE),
-        ModelErrorPart(sides=(by_flow, by_flow), cause=BY_FLOW_AT_LIMIT),
-        ModelErrorPart(sides=(by_heat, by_heat), cause=BY_HEAT),
-        ModelErrorPart(sides=(by_gap, by_gap), cause=BY_GAP),
-        ModelErrorPart(sides=by_limit, cause=BY_LIMIT, recommendation=LESS_BY_LIMIT, is_of_input=True),
-    )
+    parts_of_model = _parts_of_model_error(levels, results, heat, by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     return ModelAnswer(
         numbers=numbers,
@@ -190,7 +159,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         decision=_decision(scene, results, levels, heat),
         length=levels.length,
         violations=(
-            *_violations(prepared, numbers, results, heat),
+            *violations_of_strips(prepared, numbers, results, heat),
             *violations_by_correction(
                 levels.by_summits,
                 half_width_of_error(sampling_error.value, sampling_error.freedom),
@@ -204,6 +173,24 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         details=levels.finest.result,
         at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),
         change_without_solve=partial(_change_without_solve, levels.finest, scene, speed),
+    )
+
+
+def _parts_of_model_error(
+    levels: Levels, results: Sequence[DeterministicResult], heat: Heat, by_limit: tuple[float, float]
+) -> tuple[ModelErrorPart, ...]:
+    """Return the parts of the model-form error of f. ``by_limit``: by how much f may be lower and higher, relative, by
+    the limiting stress of the oil."""
+    by_scatter = half_width_of_error(levels.difference_error.value, levels.difference_error.freedom)
+    by_flow = abs(levels.by_flow)
+    by_heat = error_by_heat(heat, levels.by_inlet)
+    by_gap = error_by_gap_of(results)
+    return (
+        ModelErrorPart(sides=(by_scatter, by_scatter), cause=BY_PLACES, recommendation=LESS_BY_TOLERANCE),
+        ModelErrorPart(sides=(by_flow, by_flow), cause=BY_FLOW_AT_LIMIT),
+        ModelErrorPart(sides=(by_heat, by_heat), cause=BY_HEAT),
+        ModelErrorPart(sides=(by_gap, by_gap), cause=BY_GAP),
+        ModelErrorPart(sides=by_limit, cause=BY_LIMIT, recommendation=LESS_BY_LIMIT, is_of_input=True),
     )
 
 
@@ -358,40 +345,11 @@ def _end_of_cells_in_words(sample: Sample, end: EndOfCells) -> list[str]:
     return [f"{text}; {MORE_WORK} to reduce it" if end.lacks_work else text]
 
 
-def _share_given_off(results: Sequence[DeterministicResult]) -> float:
-    """Return the share of the lubricant that comes out of touching cells, mean over the strips."""
-    return mean(result.share_given_off for result in results)
-
-
-def error_by_gap(given_off: float, *, rubbing: float, boundary: float, f: float) -> float:
-    """Return the relative error of f, at 95 %, by the assumed gap between touching cells, from which the share
-    ``given_off`` of the lubricant comes.
-
-    That share of the load of the film may be on asperities, or more of theirs on the film: it changes f by no more than
-    what this load rubs on either. ``rubbing``: part of the load on asperities; ``boundary``: their part of ``f``. Half
-    of the gap changed f by less in 32 of 33 contacts, by half as much in the median (docs/deterministic.md).
-    """
-    if given_off == 0 or f == 0:
-        return 0.0
-    on_asperities = abs(boundary) * (1 - rubbing) / rubbing if rubbing > 0 else 0.0
-    return given_off * max(on_asperities, abs(f - boundary)) / abs(f)
-
-
 def _largest_film_load_ratio(prepared: Prepared, numbers: dict[str, float]) -> float:
     """Return the largest part of the load [-] that the film carries: that of the load-sharing model, whose error is the
     larger one (sample, cells and boundary film change the asperity load ratio of the deterministic model by less)."""
     share = numbers["contact_load"] / prepared.scene.bodies.load
     return largest_film_load_ratio(numbers["central_film"] / (prepared.surface.sq or math.nan), share)
-
-
-def _error_by_gap(results: Sequence[DeterministicResult]) -> float:
-    """Return `error_by_gap` of the means over the strips."""
-    return error_by_gap(
-        _share_given_off(results),
-        rubbing=mean(result.split.rubbing / result.load for result in results),
-        boundary=mean(result.boundary / result.load for result in results),
-        f=mean(result.coefficient for result in results),
-    )
 
 
 def _recommendation(prepared: Prepared, levels: Levels) -> str:
@@ -549,75 +507,4 @@ def violations_by_correction(by_summits: float, of_sample: float, f: float) -> I
             recommendation="",
             is_note=True,
             effect=abs(by_summits),
-        )
-
-
-def _violations(
-    prepared: Prepared, numbers: dict[str, float], results: Sequence[DeterministicResult], heat: Heat
-) -> Iterator[Violation]:
-    """Yield the violations of the strips, those about bodies and map first."""
-    scene = prepared.scene
-    speed = numbers["speed"]
-    film = numbers["central_film"]
-    yield from prepared.violations
-    yield from violations_by_motion(scene, speed, film)
-    flow = mean(result.flow_film for result in results)
-    friction_force = abs(numbers["coefficient"]) * scene.bodies.load
-    yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction_force)
-    peak = max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
-    yield from violations_by_pressure(scene, peak, FILM_OF_STRIPS[numbers["contact_load"] > 0])
-    yield from violations_by_thickness(scene, film)
-    if scene.bodies.boundary_film is None and film < BOUNDARY_FILM:
-        yield Violation(
-            assumption=Assumption.ABOVE_BOUNDARY_FILM,
-            what="film thickness",
-            value=1e9 * film,
-            limit=1e9 * BOUNDARY_FILM,
-            unit="nm",
-            consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the "
-            "boundary film is not "
-            f"given, and the model-form error of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
-            recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured",
-        )
-    cut = mean(result.split.capped / result.load for result in results)
-    if cut > CUT:
-        consequence = (
-            "the limiting stress of the oil is not given, so the shear stress of the film is limited to f_b p there"
-        )
-        yield Violation(
-            assumption=Assumption.FILM_BELOW_ITS_LIMIT,
-            what="share of the load on a saturated film (strips of the deterministic model)",
-            value=cut,
-            limit=CUT,
-            unit="",
-            consequence=consequence,
-            recommendation=GIVE_LIMIT,
-        )
-    share = _share_given_off(results)
-    if share > MOST_GIVEN_OFF:
-        consequence = (
-            "little lubricant passes through the contact, and f changes with the assumed gap of 1 nm between touching "
-            f"cells; the interval of f includes an error of {percent_or_less(_error_by_gap(results), 2)} for this"
-        )
-        yield Violation(
-            assumption=Assumption.LUBRICANT_PASSES,
-            what="share of the lubricant that comes from touching cells",
-            value=share,
-            limit=MOST_GIVEN_OFF,
-            unit="",
-            is_note=True,
-            consequence=consequence,
-            recommendation="",
-        )
-    yield from violations_by_heat(scene, heat)
-    if why := why_too_hot(heat):
-        parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
-        yield Violation(
-            assumption=Assumption.CHECKED_HEAT,
-            what="effect of heat over the largest that was checked",
-            value=max(parts),
-            limit=1.0,
-            unit="",
-            consequence=why,
-            recommendation="set numerics.heat = 'off' to see f without heat",
         )
