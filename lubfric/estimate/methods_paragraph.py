@@ -1,7 +1,7 @@
 """The methods behind a result as a paragraph that a publication or a test report may quote."""
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -39,12 +39,14 @@ def methods_paragraph(
     inputs: Sequence[str],
     what: str = "Friction",
     models: Sequence[str] = (),
+    points_by_model: Mapping[str, int] | None = None,
 ) -> str:
     """Return the paragraph: ``what`` was computed, by the program of the ``version``; by which models and on which
-    cells the points are (``decisions``; the ``models`` that may answer, where it is not known which did), their
+    cells the points are (``decisions``; the ``points_by_model``, where no decisions are kept; the ``models`` that may
+    answer, where it is not known which did), their
     ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain and how wide they
     are, by their ``uncertainties``."""
-    by_model = Counter(decision.model for decision in decisions)
+    by_model = Counter(points_by_model or [decision.model for decision in decisions])
     total = sum(by_model.values())
     shares = [
         title_of(name) if count == total else f"{title_of(name)} ({count} of {total} points)"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
@@ -197,17 +197,18 @@ def cited(
     inputs: Sequence[str] = (),
     what: str = "Friction",
     models: Sequence[str] = (),
+    points_by_model: Mapping[str, int] | None = None,
 ) -> str:
     """Return the papers of ``methods`` (keys of papers.toml), the model's first, and lubfric itself, in the ``format``
     "text" or "bibtex"; or "methods", a paragraph about them with the ``decisions`` and ``errors`` of the points, and
-    the ``inputs`` that they share. ``what``: was computed, as text; ``models``: that may have answered, by name, where
-    no decisions are kept."""
+    the ``inputs`` that they share. ``what``: was computed, as text; without decisions, ``points_by_model``: how many
+    points each model answered, by its name, or ``models``: that may have answered."""
     validate.choice("format", format, ("text", "bibtex", "methods"))
     used = set(methods)
     papers = packaged(__package__, "papers.toml")
     sources = [source for name, group in papers.items() if name in used for source in group]
     if format == "methods":
-        return methods_paragraph(__version__, sources, decisions, errors, inputs, what, models)
+        return methods_paragraph(__version__, sources, decisions, errors, inputs, what, models, points_by_model)
     if not any(source["type"] == "software" for source in sources):
         program = papers["deterministic model"][0]  # a chapter of lubfric
         sources.append(program | {"chapter": "", "purpose": PROGRAM})

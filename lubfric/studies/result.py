@@ -4,6 +4,7 @@ was varied."""
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -27,7 +28,7 @@ from ..estimate import (
     shared_inputs,
     varied_to_quote,
 )
-from ..models import Model, models_that_may_answer, prepare
+from ..models import MODELS, Model, prepare
 from ..models.shared import Assumption, GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted
 from ..scene import Scene, inputs_not_given
@@ -262,10 +263,14 @@ class StudyResult(Renamed, Shown):
         "bibtex" as BibTeX entries, or "methods" as a paragraph. Nothing is cited where no point is solved."""
         if not np.isfinite(self["coefficient"]).any():
             return ""
-        solved = np.isfinite(self["coefficient"]).reshape(len(self.plan.keys), -1).any(axis=1)
-        prepared = prepare(self.plan.scenes[int(np.argmax(solved))])
-        models = models_that_may_answer(prepared.scene.numerics.model)
-        names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
+        solved = np.isfinite(self["coefficient"])
+        first = int(np.argmax(solved.reshape(len(self.plan.keys), -1).any(axis=1)))
+        prepared = prepare(self.plan.scenes[first])
+        points_by_model = Counter(self.model[solved].tolist())
+        models = [model for model in MODELS if model.name in points_by_model]
+        control = [MODELS[0]] if any(m.takes_control(prepared.scene, prepared.sample) for m in models) else []
+        uses = [self._use(model) for model in (*models, *control)]
+        names = dict.fromkeys(name for use in uses for name in methods_of(prepared, use))
         roughness = [(scene.surface, scene.counterface) for scene in self.plan.scenes]
         is_alike = all(pair == roughness[0] for pair in roughness)
         maps = prepared.sample.maps_before_extension if is_alike else ()
@@ -278,13 +283,13 @@ class StudyResult(Renamed, Shown):
         inputs = shared_inputs(texts)
         varied = [varied_to_quote(key, values.tolist()) for key, (_, values) in self.coords.items()]
         drawn = [self.plan.drawn] if self.plan.drawn else []
-        points = [counted(int(np.isfinite(self["coefficient"]).sum()), "points")]
+        points = [counted(int(solved.sum()), "points")]
         return cited(
             names,
             format,
             errors=self._uncertainties(),
             inputs=[*inputs, *varied, *drawn, *points],
-            models=[model.name for model in models],
+            points_by_model=points_by_model,
         )
 
     def _uncertainties(self) -> list[Uncertainty]:

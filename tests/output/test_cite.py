@@ -117,6 +117,17 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     assert "docs/" not in estimated + study
 
 
+def test_the_paragraph_of_a_study_names_each_model_with_its_points():
+    """Two loads of three speeds each, of which the deterministic model answers two points."""
+    study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03, 0.1, 0.3])
+    assert "by its load-sharing model. The" in study.cite("methods") and "Jakobsson" not in study.cite()
+    names = numpy.full((2, 3), "paper", dtype=object)
+    names[:, 0] = "deterministic"
+    mixed = replace(study, model=names)
+    both = "by its load-sharing model (4 of 6 points) and deterministic model (2 of 6 points). The"
+    assert both in mixed.cite("methods") and "Jakobsson" in mixed.cite()
+
+
 def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     ranged = PATCH.with_(bodies={"boundary_friction_coefficient": [0.1, 0.12]})
     assert "boundary friction coefficient 0.11 (range 0.1 to 0.12)" in cites_methods(ranged)
