@@ -25,10 +25,10 @@ from .explain import explain, warnings_of
 from .operating_points import ENTRAINMENT, POINT, operating_points
 from .points import SPEED, scene_key
 from .store import digest
-from .study_file import study_toml
+from .study_file import DRAWN_BEFORE, study_toml
 from .vary import VARIED_SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
-STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
+STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample", DRAWN_BEFORE)
 # Sections by which a scene is told from a study file.
 SCENE_SECTIONS = {"bodies", "lubricant", "motion", "surface"}
 SAMPLE_KEYS = ("count", "sampler", "seed")
@@ -247,6 +247,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     - ``points``: a table of operating points: a text file relative to this one, or [[points]] with a table for each.
     - [vary]: keys with lists of values.
     - [[together]]: keys whose lists go together.
+    - ``drawn``: how its values were drawn before, a text for its methods.
     - [sample]: keys with {low, high, scale} or {mean, standard_deviation, low, high, scale}, and count, sampler, seed;
       with "speed" among the keys its points are operating points.
 
@@ -283,8 +284,12 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         _add(vary, tuple(lists), list(zip(*lists.values())))
     speeds = table.get("speeds")
     operating_points: Any = points
-    how_drawn = ""
+    how_drawn: Any = table.get(DRAWN_BEFORE, "")
+    validate.instance(f"{DRAWN_BEFORE} of {path.name}", how_drawn, str, "a text")
     if "sample" in table:
+        if DRAWN_BEFORE in table:
+            message = f"{path.name} has {DRAWN_BEFORE}, how its values were drawn, and [sample], which draws others"
+            raise InputError(message, recommendation="give one of the two")
         options = table["sample"]
         (keys, drawn) = _sampled(dict(options) if isinstance(options, dict) else options, path.name)
         how_drawn = _drawn_in_words(options)
@@ -322,15 +327,18 @@ def _drawn_in_words(table: Any) -> str:
     how = "independent random points" if given.get("sampler") == "random" else "a scrambled Sobol sequence"
     seeded = f"{given.get('count')} sets of values drawn as {how} with the seed {given.get('seed', 0)}"
     ranges = _flat({key: part for key, part in given.items() if key not in SAMPLE_KEYS}, _is_value)
-    return "; ".join((seeded, *(_normal_in_words(key, part) for key, part in ranges.items() if "mean" in part)))
+    return "; ".join((seeded, *(_distribution_in_words(key, part) for key, part in ranges.items())))
 
 
-def _normal_in_words(key: str, given: dict[str, Any]) -> str:
-    """Return the normal distribution that [sample] has ``given`` for a ``key``, as text."""
+def _distribution_in_words(key: str, given: dict[str, Any]) -> str:
+    """Return the distribution that [sample] has ``given`` for a ``key``, as text."""
     unit = printed("m/s" if key == SPEED else unit_of(key))
     words = {name: value if isinstance(value, str) else f"{value:g} {unit}".strip() for name, value in given.items()}
     limits = " ".join(f"{word} {words[end]}" for end, word in (("low", "from"), ("high", "to")) if end in words)
-    kind = "lognormal" if given.get("scale") == "log" else "normal"
+    is_log = given.get("scale") == "log"
+    if "mean" not in words:
+        return f"{key} of a uniform distribution{' of its logarithm' if is_log else ''} {limits}"
+    kind = "lognormal" if is_log else "normal"
     text = f"{key} of a {kind} distribution with the mean {words['mean']} and the standard deviation {words[DEVIATION]}"
     return f"{text}, cut off {limits}" if limits else text
 

@@ -13,6 +13,9 @@ from .operating_points import COORDINATES, POINT
 from .points import SPEED
 from .vary import Axis
 
+# Key of a study file that says how its values were drawn.
+DRAWN_BEFORE = "drawn"
+
 
 def study_toml(plan: Any, scene: str) -> str:
     """Return a `StudyPlan` as the text of a study file of the file ``scene``, which holds the scene of the plan, all
@@ -22,6 +25,8 @@ def study_toml(plan: Any, scene: str) -> str:
     them are there. Raises `InputError` for values that a study file cannot hold.
     """
     lines = [f"scene = {toml_value(scene)}"]
+    if plan.drawn:
+        lines.append(f"{DRAWN_BEFORE} = {toml_value(plan.drawn)}")
     if plan.chooses_speeds:
         lines.append(f"speeds = {toml_value(AUTO_SPEEDS)}")
     elif not plan.paired:

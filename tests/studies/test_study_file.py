@@ -60,7 +60,11 @@ def test_a_sample_with_speeds_has_operating_points(tmp_path):
     shares = qmc.Sobol(2, seed=3).random(4)
     assert plan.point_speeds == pytest.approx(0.01 * 100 ** shares[:, 1])
     np.testing.assert_allclose(plan.coords["bodies.load"][1], 3 + 2 * shares[:, 0])
-    assert plan.points == 4 and plan.drawn == "4 sets of values drawn as a scrambled Sobol sequence with the seed 3"
+    assert plan.points == 4 and plan.drawn == (
+        "4 sets of values drawn as a scrambled Sobol sequence with the seed 3; "
+        "bodies.load of a uniform distribution from 3 N to 5 N; "
+        "speed of a uniform distribution of its logarithm from 10 mm/s to 1 m/s"
+    )
     with (tmp_path / "study.toml").open("a") as file:
         file.write("[[points]]\nspeed = 0.1\n")
     with pytest.raises(lubfric.InputError, match=r"\[sample\] of study.toml has speeds, and points has them too"):
@@ -93,10 +97,17 @@ def test_normal_values_and_entrainment_speeds_are_sampled(tmp_path):
     assert plan.point_speeds == drawn["speed"]
     assert plan.drawn.partition("; ")[2] == (
         "bodies.load of a normal distribution with the mean 5 N and the standard deviation 2 N, cut off from 1 N; "
+        "motion.entrainment_speed of a uniform distribution of its logarithm from 10 mm/s to 1 m/s; "
         "lubricant.temperature_celsius of a normal distribution with the mean 60 °C and the standard deviation 4 K"
     )
     for key in ("bodies.load", "lubricant.temperature_celsius"):
         np.testing.assert_allclose(plan.coords[key][1], drawn[key])
+    (tmp_path / "again.toml").write_text(plan.to_toml("scene.toml"), encoding="utf-8")
+    again = load_study(tmp_path / "again.toml")
+    assert again.drawn == plan.drawn and again.keys == plan.keys and again.point_speeds == plan.point_speeds
+    (tmp_path / "again.toml").write_text('drawn = "by hand"\n' + head + load + " }\n", encoding="utf-8")
+    with pytest.raises(lubfric.InputError, match=r"drawn.* and \[sample\]"):
+        load_study(tmp_path / "again.toml")
     (tmp_path / "study.toml").write_text(head + load.replace("2.0", "4.0") + " }\n", encoding="utf-8")
     with pytest.raises(lubfric.InputError, match=r"\[sample\] bodies.load: .*give low and high in \[sample\]"):
         load_study(tmp_path / "study.toml")
