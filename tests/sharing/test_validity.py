@@ -441,3 +441,19 @@ def test_rounded_speeds_of_a_body_at_rest_do_not_make_it_move_against_the_other(
     scene = PAPER.with_(motion={"slide_roll_ratio": sliding / 1.2566})
     found = [violation.consequence for violation in violations_by_motion(scene, 1.2566, 3e-7)]
     assert any("opposite directions" in consequence for consequence in found) == is_opposed
+
+
+@pytest.mark.parametrize("model", ["paper", "quick", "deterministic"])
+def test_asperity_pressures_that_no_steel_carries_have_a_warning(model):
+    """The pressures of the drawn contact show which: elastic ones rise with the slope of the roughness."""
+    numerics = {"model": model, "sampling": "patch", "accept": True}
+    patch = {"shape": (64, 16), "spacing": 2e-6}
+    scene = PAPER.with_(bodies={"hardness": None, "load": 20.0}, contact=patch, numerics=numerics)
+    rough = [{"correlation_length": 4e-6, "sq": sq} for sq in (0.1e-6, 0.8e-6)]
+    flat, steep = (lubfric.friction(scene.with_(surface=each), 0.01) for each in rough)
+    assert flat.pressure.max() < 8e9 and steep.pressure.max() > 10e9
+    (warning,) = (each for each in steep.validity if "bodies.hardness" in each.recommendation)
+    assert not warning.is_note and "pressure is" in warning.text
+    assert not any("bodies.hardness" in each.recommendation for each in flat.validity)
+    hard = lubfric.friction(scene.with_(surface=rough[1], bodies={"hardness": 7e9}), 0.01)
+    assert hard.pressure.max() <= 7e9 and not any("bodies.hardness" in each.recommendation for each in hard.validity)

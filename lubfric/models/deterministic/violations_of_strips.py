@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from ...oil import NO_LIQUID
 from ...scene import BOUNDARY_FILM_KEY, Scene
 from ..shared import (
     GIVE_LIMIT,
@@ -11,6 +12,7 @@ from ..shared import (
     Violation,
     peak_hertz_pressure,
     percent_or_less,
+    violations_by_asperities,
     violations_by_heat,
     violations_by_inlet,
     violations_by_motion,
@@ -55,6 +57,9 @@ def violations_of_strips(
     yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction_force)
     peak = max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
     yield from violations_by_pressure(scene, peak, FILM_OF_STRIPS[numbers["contact_load"] > 0])
+    if peak <= NO_LIQUID:  # else the warning of the film recommends the hardness
+        asperities = (float(result.pressure[result.rubbing].max(initial=0.0)) for result in results)
+        yield from violations_by_asperities(scene, max(asperities))
     yield from violations_by_thickness(scene, film)
     yield from _violations_by_boundary_film(scene, film)
     yield from _violations_by_saturation(results)

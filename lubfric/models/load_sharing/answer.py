@@ -82,7 +82,14 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
 
 def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:
     """Return the limits of load sharing that ``balanced`` exceeds."""
-    return limits_exceeded(balanced.prepared, balanced.speed, balanced.corrected_balance, edge_load_share(balanced))
+    fields = balanced.raw_balance.contact_state.fields
+    return limits_exceeded(
+        balanced.prepared,
+        balanced.speed,
+        balanced.corrected_balance,
+        ends=edge_load_share(balanced),
+        asperity_pressure=0.0 if fields is None else float(fields.pressure.max()),
+    )
 
 
 def fields_of(balanced: BalancedSample) -> ContactFields | None:

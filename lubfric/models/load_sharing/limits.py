@@ -6,6 +6,7 @@ from ..shared import (
     Prepared,
     Violation,
     typical_heat,
+    violations_by_asperities,
     violations_by_deflection,
     violations_by_ends,
     violations_by_film,
@@ -17,9 +18,12 @@ from ..shared import (
 from .balance import Balance
 
 
-def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: float) -> tuple[Violation, ...]:
+def limits_exceeded(
+    prepared: Prepared, speed: float, balance: Balance, *, ends: float, asperity_pressure: float
+) -> tuple[Violation, ...]:
     """Return the limits of load sharing that ``balance`` exceeds, those about bodies and map (`Prepared.violations`)
-    first. ``ends``: the share of the contact's load on the edge columns of its patch."""
+    first. ``ends``: the share of the contact's load on the edge columns of its patch; ``asperity_pressure`` [Pa]: the
+    highest of its cells."""
     scene = prepared.scene
     film = balance.film
     thickness = film.central_film if film is not None else math.nan
@@ -27,6 +31,7 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
         *prepared.violations,
         *violations_by_motion(scene, speed, thickness),
         *violations_by_ends(scene, ends, prepared.surface),
+        *violations_by_asperities(scene, asperity_pressure),
     ]
     violations += violations_by_patches(
         scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction

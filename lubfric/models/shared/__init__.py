@@ -20,6 +20,7 @@ from .checks import (
     consequence_of_numerical_error,
     is_of_impossible_stress,
     peak_hertz_pressure,
+    violations_by_asperities,
     violations_by_deflection,
     violations_by_ends,
     violations_by_film,

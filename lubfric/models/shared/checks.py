@@ -63,6 +63,9 @@ STRIP_SHARE = 0.2
 # a convention.
 SPIKE = 1.05
 
+# Pressure [Pa] above which asperities of the hardest through-hardened steel yield: 830 HV (typical.toml).
+YIELDED_ASPERITIES = 8.1e9
+
 # What to give so that the film is deflected by the total load.
 DEFLECTION_OF_TOTAL_LOAD = "numerics.film_deflection = 'scaled'"
 
@@ -237,6 +240,21 @@ def _violation_between_asperities(scene: Scene, peak: float, place: str) -> Viol
         ),
         recommendation="; ".join((*advice, *more)),
     )
+
+
+def violations_by_asperities(scene: Scene, peak: float) -> Iterator[Violation]:
+    """Yield the violation by asperities whose highest pressure ``peak`` [Pa] no steel carries, where no hardness limits
+    it."""
+    if scene.bodies.hardness is None and peak > YIELDED_ASPERITIES:
+        yield Violation(
+            assumption=Assumption.ELASTIC_ASPERITIES,
+            what="highest asperity pressure",
+            value=peak / 1e9,
+            limit=YIELDED_ASPERITIES / 1e9,
+            unit="GPa",
+            consequence="hard steel yields at this pressure, but the asperities are modelled as elastic",
+            recommendation="give bodies.hardness",
+        )
 
 
 def _name_of_peak(scene: Scene, peak: float) -> str:

@@ -42,6 +42,7 @@ class Assumption(StrEnum):
     HALF_SPACE = "contact narrower than the bodies"
     LINE_CONTACT = "contact longer than wide"
     ELASTIC_BODIES = "elastic bodies"
+    ELASTIC_ASPERITIES = "elastic asperities"
     SMALL_SLOPES = "small slopes of the map"
     CORRELATED_HEIGHTS = "correlated heights of the map"
     MAP_WITHOUT_FORM = "map without form"
