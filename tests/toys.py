@@ -36,3 +36,15 @@ class Spring(RoughContact):
             real_contact_area_fraction=0.0,
             plastic_area_fraction=0.0,
         )
+
+
+@dataclass(frozen=True)
+class YieldingSpring(Spring):
+    """A spring whose gap falls by ``drop`` [m] where its load exceeds ``limit`` [N], as where a single cell yields
+    until another one touches: gaps between have that load."""
+
+    limit: float = 0.0
+    drop: float = 0.0
+
+    def gap(self, load):
+        return super().gap(load) - self.drop * (load > self.limit)

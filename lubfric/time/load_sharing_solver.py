@@ -13,7 +13,7 @@ from .._base import may_stay_unsolved
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT
 from ..film import cubic, hertz
-from ..models.load_sharing import film_under, volume_residual
+from ..models.load_sharing import film_under, volume_residual, with_gap_of_closure
 from ..models.shared import Prepared
 from ..scene import Scene
 from .film_equations import Spring
@@ -28,17 +28,26 @@ LEAST_APPROACH = 1e-9  # [-] of a contact from first touch, over its gap: less i
 # counted work of 17 s, and 28 s with 1e-3, under which the load of a slow run changes in every trial.
 LEAST_LOG_LOAD = 1e-5
 MOST_TRIALS = 16  # number of film and contact solves in one step, at most
+PLAIN_TRIALS = 4  # of them, after which two loads that enclose the balance are closed in
+# Part of the distance of two loads that enclose the balance by which a trial stays away from each [-]. A choice: more
+# takes more trials where the gap jumps near the middle, less where it jumps near an end.
+KEPT_AWAY = 0.25
+# Travel of a spring of constant load over the mean gap [-]: its load changes by a thousandth of the relative change of
+# the gap. A choice: it moves the trials alone.
+LONG_TRAVEL = 1e3
 
 
 @dataclass(frozen=True, kw_only=True)
 class ContactStep:
     """The asperity contact in a step: its load [N], its state, the mean gap of first touch under the same film [m], and
-    the power of the approach from there with which the load increases."""
+    the power of the approach from there with which the load increases. ``is_jump``: the gap is between those of two
+    contacts of nearly this load (`LoadBracket`)."""
 
     load: float
     state: ContactState
     touching_gap: float
     power: float = FIRST_POWER
+    is_jump: bool = False
 
     @property
     def approach(self) -> float:
@@ -67,6 +76,62 @@ class ContactStep:
         if abs(log_load) < LEAST_LOG_LOAD or log_load * log_approach <= 0.0:
             return self.power
         return min(max(log_load / log_approach, 0.5 * self.power, 1.0), 2.0 * self.power)
+
+
+def constant_spring(mean_row: np.ndarray, load: float, mean_gap: float) -> Spring:
+    """Return a spring that carries about ``load`` (in the unit of the film's) at every film near ``mean_gap`` [m]."""
+    mean = film_under(mean_gap)
+    return Spring(weights=mean_row, opening=(1.0 + LONG_TRAVEL) * mean, mean=mean, load=load, power=1.0)
+
+
+@dataclass
+class LoadBracket:
+    """Two contacts of one step whose loads enclose that of the balance: the gap of the ``lighter`` is wider than the
+    closure demands, that of the ``heavier`` narrower (None: not found yet).
+
+    Where a single cell yields, its load cannot grow, and the gap jumps until another cell touches: no load has the gaps
+    between. There a secant leads from one side of the jump to the other and back.
+    """
+
+    lighter: ContactStep | None = None
+    heavier: ContactStep | None = None
+
+    def add(self, touch: ContactStep) -> None:
+        """Take ``touch``, which replaces the end on its side."""
+        if volume_residual(touch.state) > 0.0:
+            self.lighter = touch
+        else:
+            self.heavier = touch
+
+    @property
+    def width(self) -> float:
+        """How much more the heavier contact carries [N]; NaN without two ends in this order."""
+        if self.lighter is None or self.heavier is None or self.lighter.load >= self.heavier.load:
+            return math.nan
+        return self.heavier.load - self.lighter.load
+
+    def spring(self, mean_row: np.ndarray, load_unit: float) -> Spring | None:
+        """Return the spring through two loads between the ends, at their gaps; None without two ends."""
+        if self.lighter is None or self.heavier is None or math.isnan(self.width):
+            return None
+        (low, high) = (
+            load / load_unit
+            for load in (
+                self.lighter.load + KEPT_AWAY * self.width,
+                self.heavier.load - KEPT_AWAY * self.width,
+            )
+        )
+        mean = film_under(self.heavier.state.mean_gap)
+        travel = film_under(self.lighter.state.mean_gap) - mean
+        if travel <= 0.0:
+            return constant_spring(mean_row, 0.5 * (low + high), self.heavier.state.mean_gap)
+        return Spring(weights=mean_row, opening=mean + travel * high / (high - low), mean=mean, load=high, power=1.0)
+
+    def jump(self) -> ContactStep:
+        """Return the contact between the two ends: the heavier one, with the gap that the closure demands."""
+        assert self.heavier is not None
+        state = with_gap_of_closure(self.heavier.state, self.heavier.state.mean_film)
+        return replace(self.heavier, state=state, is_jump=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,13 +222,15 @@ class LoadSharingSolver:
         A `Spring` represents the contact in the film's load balance. It ends at first touch: the surfaces separate
         where the contact has no load left, however small that was before. The contact is solved at the load of the
         spring, and its gap gives the next spring (a power of the approach from first touch), until the
-        `volume_residual` is within the tolerance.
+        `volume_residual` is within the tolerance, or two loads that enclose the balance are, over the total load.
         """
         contact = self.contact_at(time)
         total = self.setting.line_history.load.before(time)
         touch = past
-        for _ in range(MOST_TRIALS):
-            solution = self.setting.solve(time, memory, z, touch.spring(contact.mean_row, self.setting.load_unit))
+        bracket = LoadBracket()
+        for number in range(MOST_TRIALS):
+            spring = self._spring(contact.mean_row, touch, bracket, number, is_after_jump=past.is_jump, total=total)
+            solution = self.setting.solve(time, memory, z, spring)
             if solution.status != CONVERGED:
                 return solution
             load = solution.terms.spring[0] * self.setting.load_unit
@@ -172,15 +239,38 @@ class LoadSharingSolver:
             if load == 0.0 and film.min() <= 0.0:
                 break
             if load == 0.0 and volume_residual(separated) <= self.tolerance:
-                contact_step = replace(touch, load=0.0, state=separated, touching_gap=separated.mean_gap)
+                contact_step = replace(touch, load=0.0, state=separated, touching_gap=separated.mean_gap, is_jump=False)
                 return replace(solution, payload=contact_step)
             tried = load or touch.load or FIRST_TOUCH * total
             state = contact.closed(film, tried, touch.state)
             if state is None:
                 break
-            solved = replace(touch, load=tried, state=state, touching_gap=separated.mean_gap)
+            solved = replace(touch, load=tried, state=state, touching_gap=separated.mean_gap, is_jump=False)
             touch = solved if touch is past else replace(solved, power=solved.power_from(touch))
             if load > 0.0 and abs(volume_residual(state)) <= self.tolerance:
                 return replace(solution, payload=touch)
+            bracket.add(touch)
+            if load > 0.0 and bracket.width <= self.tolerance * total:
+                return replace(solution, payload=bracket.jump())
             z = solution.z
         return replace(solution, status=ITERATION_LIMIT)
+
+    def _spring(
+        self,
+        mean_row: np.ndarray,
+        touch: ContactStep,
+        bracket: LoadBracket,
+        number: int,
+        *,
+        is_after_jump: bool,
+        total: float,
+    ) -> Spring | None:
+        """Return the spring of trial ``number``, from the last contact ``touch``. After a step that ended in a jump of
+        the gap, the first two trials are at its load and as far on the other side as `LoadBracket` may be wide."""
+        unit = self.setting.load_unit
+        if is_after_jump and number < 2:
+            change = 0.5 * self.tolerance * total * number
+            change = change if bracket.lighter is not None else -change
+            return constant_spring(mean_row, (touch.load + change) / unit, touch.state.mean_gap)
+        closing = bracket.spring(mean_row, unit) if number >= PLAIN_TRIALS else None
+        return closing or touch.spring(mean_row, unit)

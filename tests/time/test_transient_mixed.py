@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scene_text import paper_scene
 from small_study import slowness
-from toys import Spring
+from toys import Spring, YieldingSpring
 
 import lubfric
 from lubfric.models import prepare
@@ -78,6 +78,20 @@ def test_the_last_asperity_leaves_and_meets_the_film_with_any_load():
     np.testing.assert_allclose(result.contact_load, expected, rtol=1e-9)
     touches = result.contact_load > 0.0
     assert 1 < touches.sum() < 8 and 0.0 < result.contact_load[touches].min() < load
+
+
+def test_a_gap_that_jumps_where_a_cell_yields_keeps_the_load_of_the_jump():
+    """While the film passes the gaps of the jump, the contact carries its load, within the tolerance of the balance;
+    elsewhere that of its closed form. The trials went from one side to the other, until the shortest step failed."""
+    (touching, sigma, stiffness, limit, drop) = (2.7e-7, 6e-8, 1.0, 0.3, 1.5e-8)
+    contact = YieldingSpring(touching, sigma, stiffness, limit=limit, drop=drop)
+    plan = Transient(0.02, speed=Ramp(start=0.044, end=0.052, until=0.02), tolerance=1e-4)
+    result = lubfric.transient(prepare(SCENE.with_(transient=plan), contact=contact), np.linspace(0.0, 0.02, 9))
+    above = result.mean_gap - contact.gap(limit)  # of the jump, from its upper end
+    expected = ((touching - result.mean_gap - drop * (above < -drop)) / sigma) ** 1.5 * stiffness
+    in_jump = (-drop <= above) & (above <= 0.0)
+    np.testing.assert_allclose(result.contact_load, np.where(in_jump, limit, expected), atol=1e-4 * SCENE.bodies.load)
+    assert in_jump.sum() > 2 and (above > 0).any() and (above < -drop).any()
 
 
 @pytest.mark.parametrize("power", [1.5, 4.0, 9.0])

@@ -11,7 +11,7 @@
 """
 
 from .balance import Balance, is_separated, solve_balance
-from .closure import film_under, gap_per_film, gap_under, volume_residual
+from .closure import film_under, gap_per_film, gap_under, volume_residual, with_gap_of_closure
 from .error_of_eq8 import (
     OF_SHARE,
     STATIONARY_ROLLING_RATIOS,
