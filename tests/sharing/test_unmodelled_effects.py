@@ -93,6 +93,22 @@ def test_the_bound_of_an_estimated_coefficient_holds_the_solved_changes(
     assert true <= bound <= 16 * true
 
 
+def test_the_bound_of_an_estimated_coefficient_follows_the_shear_of_a_film_that_solved_friction_shows():
+    """A film of 0.44 GPa at a slip of 0.5 %: load sharing gives f = 0.0066 and, at the ends of the range, 45 % less and
+    111 % more. The shear of the closed form is smaller."""
+    given = {
+        "bodies": {"radius": 10.2e-3, "width": 10e-3, "load": 554.66, "material": "100Cr6"}
+        | {"boundary_friction_coefficient": 0.11},
+        "lubricant": {"nu40": "320 cSt", "viscosity_index": 95, "temperature": "90 °C", "eyring_stress": "mineral"}
+        | {"limiting_stress_coefficient": 0.08},
+        "motion": {"slide_roll_ratio": "0.5 %"},
+        "surface": {"sq": 20e-9, "correlation_length": 20e-6},
+    }
+    effects = unmodelled_effects(paper_scene(**given), 20e-9, 9.1346, (0.0, 0.0066))
+    (bound,) = (effect.change for effect in effects if effect.is_of_alpha)
+    assert 1.11 < bound < 2.5
+
+
 def told(lacks, word):
     (effect,) = [effect for effect in lacks if word in effect.what]
     return effect.change
