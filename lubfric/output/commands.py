@@ -46,6 +46,7 @@ from ..quantities import KEYS, Quantity, described
 from ..scene import OPTIONS_KEY, Scene
 from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
+from ..time import without_work_limit
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .progress import clear_active, state_part
@@ -256,6 +257,8 @@ def run_begun(
     saying = keeping(kept) if kept else nullcontext()
     fingerprint = fingerprint_without_files(prepared, *key)
     states = fingerprint_without_files(prepared, kept_by) if kept_by else fingerprint
+    if scene.transient is not None:  # a larger limit continues it
+        states = fingerprint_without_files(without_work_limit(prepared), *key)
     with saying, run_folder(arguments.out, begun, fingerprint, states) as folder:
         folder.map_checksums = checksums
         begin_beside(figures.make_ready)  # while it is solved
@@ -420,7 +423,8 @@ class RunFolder:
     last says that the others are complete.
 
     ``unfinished`` has what an interrupted run saved, of the same ``states``. What others saved is left alone.
-    ``is_needed``: whether runs of the same states still need it. ``continues``: whether it continues an interrupted run.
+    ``needed_by``: the runs of the same states that still need it, as text ("": none). ``continues``: whether it
+    continues an interrupted run.
     ``map_checksums``: of the height maps that were read, by path.
     """
 
@@ -429,7 +433,7 @@ class RunFolder:
         self.begun = begun
         self.fingerprint = fingerprint
         self.unfinished = path / UNFINISHED / states[:16]
-        self.is_needed = False
+        self.needed_by = ""
         self.continues = False
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
@@ -532,11 +536,8 @@ class RunFolder:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         self.put(OUTPUTS, (*lines, *record.get("validity", ())))
         if not self.failures:  # else what was saved is all that has everything
-            if self.is_needed:
-                say(
-                    f"{self.unfinished.parent} keeps the points of an interrupted run of this scene with more points; "
-                    "the command of that run continues it"
-                )
+            if self.needed_by:
+                say(f"{self.unfinished.parent} keeps {self.needed_by}")
             else:
                 Store(self.unfinished).clear()
                 clear_checked(self.unfinished.parent)

@@ -54,6 +54,11 @@ INDENT = "    "
 # How a note begins that says why an error is not known.
 UNKNOWN = "sampling not known: "
 
+# Which runs still need the points that are kept, as text.
+RUN_WITH_MORE_POINTS = (
+    "the points of an interrupted run of this scene with more points; the command of that run continues it"
+)
+
 
 def run_sweep(scene: Scene, arguments: Namespace) -> None:
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html,
@@ -108,7 +113,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
                 on_point=on_point,
                 raise_on_failure=False,
             )
-            folder.is_needed = not studies.is_all_solved(folder.unfinished)
+            folder.needed_by = "" if studies.is_all_solved(folder.unfinished) else RUN_WITH_MORE_POINTS
             _write(folder, prepared, curve, arguments, estimate, chosen, measured, known)
     _raise_if_failed(curve)
 
@@ -193,7 +198,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
             raise_on_failure=False,
             workers=workers,
         )
-        folder.is_needed = not studies.is_all_solved(folder.unfinished)
+        folder.needed_by = "" if studies.is_all_solved(folder.unfinished) else RUN_WITH_MORE_POINTS
         _write(folder, prepared, curve, arguments, estimate, [], measured, known)
         notes = gap_notes(curve)
         for note in notes[:MOST_GAPS]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._base import figures, table_bytes
-from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..errors import WORK_LIMIT, ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell, sentence
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
@@ -31,6 +31,11 @@ PART_OF_LINE = 0.04
 
 # What `TimeLeft` calls the work before the first step of a run.
 BEFORE_STEPS = "before the first step"
+
+# What is kept of a run that ended at its limit of work, as text.
+RUN_OF_LARGER_LIMIT = (
+    "the state that was reached; the same command with a larger numerics.max_work continues from there"
+)
 
 
 class HistoryProgress:
@@ -150,6 +155,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:
             failure = error
+        if result.report.status == WORK_LIMIT:
+            folder.needed_by = RUN_OF_LARGER_LIMIT
         _write(folder, scene, result, animation=arguments.animation)
         mean = asdict(result.average())
         lines: list[str] = []

@@ -35,7 +35,7 @@ from .result import (
     time_scale,
 )
 from .roughness_in_motion import way_to_motion_in_time
-from .run import raise_if_failed, run_in_time, transient
+from .run import raise_if_failed, run_in_time, transient, without_work_limit
 from .scene_in_time import fastest_of_run, has_steady_film, scene_at
 from .start import speeds_of_run, strip_of_run
 from .transient_deterministic import make_deterministic, start_deterministic

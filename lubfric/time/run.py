@@ -124,8 +124,7 @@ def run_in_time(
     section = transient_of(model.scene)
     tolerance = section.tolerance or model.time_error
     plan = plan_of(times, section.histories, model.first_step, tolerance, model.stops)
-    unlimited = replace(model.scene, numerics=replace(model.scene.numerics, max_work=None))
-    key = fingerprint_without_files(replace(model.prepared, scene=unlimited), section, times)
+    key = fingerprint_without_files(without_work_limit(replace(model.prepared, scene=model.scene)), section, times)
     if math.isinf(limit):
         seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
         limit = most_work_of_estimate(seconds)
@@ -143,6 +142,12 @@ def run_in_time(
         )
     result = collect(model, start.grid_error, plan, progress, outputs, limit if ended else math.inf)
     return result, [key, *_output_keys(key, len(outputs))]
+
+
+def without_work_limit(prepared: Prepared) -> Prepared:
+    """Return ``prepared`` without the limit of its counted work, on which no number of a run in time depends."""
+    scene = prepared.scene
+    return replace(prepared, scene=replace(scene, numerics=replace(scene.numerics, max_work=None)))
 
 
 def _output_keys(key: str, count: int) -> list[str]:

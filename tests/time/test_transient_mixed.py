@@ -364,6 +364,27 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     assert {p.name for p in (tmp_path / "out").iterdir()} == names
 
 
+def test_the_command_continues_with_a_larger_limit_of_work_from_where_a_smaller_one_ended_it(tmp_path, capsys):
+    """The same history as at once, of which the command solves only what was left."""
+    plan = Transient(0.01, outputs=4, speed=Harmonic(mean=0.05, amplitude=0.02, frequency=100.0), tolerance=1e-3)
+
+    def history(most_work):
+        scene = tmp_path / "scene.toml"
+        scene.write_text(SCENE.with_(transient=plan, numerics={"max_work": most_work}).to_toml())
+        code = main(["run", str(scene), "--out", str(tmp_path / "out")])
+        with (tmp_path / "out" / "history.csv").open() as table:
+            numbers = [[float(row["time [s]"]), float(row["coefficient [-]"])] for row in csv.DictReader(table)]
+        return code, np.array(numbers), " ".join(capsys.readouterr().err.split())
+
+    (code, begun, said) = history(0.06)
+    assert code != 0 and 0 < begun[-1, 0] < 0.01 and "larger numerics.max_work continues from there" in said
+    (code, continued, said) = history(50.0)
+    assert code == 0 and "the run continues at t = " in said and not (tmp_path / "out" / "unfinished").exists()
+    at_once = lubfric.transient(SCENE.with_(transient=plan))
+    np.testing.assert_allclose(continued.T, [at_once.time, at_once.coefficient], rtol=1e-9)
+    np.testing.assert_array_equal(begun, continued[: begun.shape[0]])
+
+
 @pytest.mark.slow
 def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
     """Processor seconds of the machine that forecasts are made for."""
