@@ -26,7 +26,7 @@ def main() -> int:
     except (MemoryError, ImportError) as error:  # the same
         if isinstance(error, ImportError) and not any(words in str(error) for words in NO_MEMORY):
             raise
-        print(f"lubfric: the memory is not enough to load its modules ({error}); allow more", file=sys.stderr)
+        print(f"lubfric: not enough memory to load its modules: it needs {error}; allow more", file=sys.stderr)
         return 1
 
 

@@ -126,8 +126,8 @@ class Quantities(Generic[T]):
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
         error="shear",
-        note="moment of the load about the middle, over R; with roughness at rest also of the asperity contacts, of "
-        "either sign and 0 on average; with moving roughness that of the smooth film",
+        note="moment of the load about the middle of the contact, over R; with roughness at rest it includes the asperity "
+        "contacts, whose part is 0 on average; with moving roughness it is that of the smooth film",
         is_left_by_cells=True,
         is_controlled=True,
     )

@@ -35,7 +35,7 @@ DOTTED = re.compile(r"`(lubfric(?:\.\w+)+)\b")
 # choice.
 SOURCE = re.compile(
     r"doi|\b(18|19|20)\d\d\b|Eqs?\. ?\(|\b(ISO|DIN|ASTM|SI)\b|docs/|\.(toml|csv)\b|python -m|verification[./]|definition"
-    r"|[Mm]easured(?! (map|surface|point|height|area))|[Ff]itted|[Hh]alved|[Hh]alf and twice|[Hh]alf (changes|takes)|[Cc]hosen|[Cc]hoice|[Cc]onvention"
+    r"|[Mm]easured(?! (map|surface|point|height|area))|[Ff]itted|[Hh]alved|[Hh]alf and twice|[Hh]alf (this value )?(changes|takes)|[Cc]hosen|[Cc]hoice|[Cc]onvention"
     r"|\b[Ff]ollows? from|\b[Aa]s in "
 )
 # What a module says whose constants have one source.

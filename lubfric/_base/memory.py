@@ -22,7 +22,7 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 # Bytes of resident memory, more than after the last release, from which freed blocks are returned: a release takes
-# about 1 ms a 100 MB. A choice: less takes more time, more leaves more memory.
+# about 1 ms a 100 MB. A choice: a smaller value takes more time, a larger one leaves more memory.
 RELEASED_GROWTH = 64 * 2**20
 
 # Bytes of the block whose release lets glibc keep as much again as it holds: a little less than the largest size from

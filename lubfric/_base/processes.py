@@ -20,20 +20,21 @@ from ..errors import InputError
 from . import validate
 from .processor_time import ProcessorTime, receive_time, reported_time
 
-# Time between two looks at whether the command still lives [s]. A choice: less costs time, more leaves processes for
-# longer.
+# Time between two looks at whether the command still lives [s]. A choice: a smaller value costs time, a larger one
+# leaves processes for longer.
 WATCH = 0.2
 
 # Most processes of a command. A choice: more than a machine has cores.
 MOST_WORKERS = 1024
 
-# Time that an interrupted process is waited for [s]. A choice: less ends it in the middle of a write.
+# Time that an interrupted process is waited for [s]. A choice: a smaller value ends it in the middle of a write.
 LAST_WAIT = 2.0
 
-# Time that a scheduler has to answer [s]. A choice: less gives up slow networks.
+# Time that a scheduler has to answer [s]. A choice: a smaller value gives up slow networks.
 CONNECT = 10.0
 
-# Time after which the client of a scheduler that answers is given up [s]. A choice: less gives up slow clusters.
+# Time after which the client of a scheduler that answers is given up [s]. A choice: a smaller value gives up slow
+# clusters.
 LONGEST_START = 60.0
 
 # Protocols of a scheduler over a connection of TCP; and those in which the client speaks first.
@@ -41,7 +42,7 @@ SCHEMES = ("tcp", "tls", "ws", "wss")
 CLIENT_FIRST = ("tls:", "ws:", "wss:")
 
 # Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory. A choice:
-# less leaves workers idle, more takes memory.
+# a smaller value leaves workers idle, a larger one takes memory.
 IN_FLIGHT = 4096
 
 # Times that an executor may lose a job before it is done here. A choice: more repeats jobs that end their process.

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import CONVERGED, ITERATION_LIMIT, Report
 
-# Of the value before: the secant leads on. A choice: more takes longer secant steps, which may miss the root.
+# Of the value before: the secant leads on. A choice: a larger value takes longer secant steps, which may miss the root.
 NEARER = 0.3
 
 # First step of the secant, in x, and the same relative to x [-]. A choice: that of ``scipy.optimize.newton``.

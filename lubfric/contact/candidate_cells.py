@@ -23,10 +23,11 @@ from .operator import HalfSpace, filtered, wavenumber
 # Share of the cells [-] from which all are taken: their numbers take more memory than they save. Halved and doubled by
 # `python -m verification.campaigns.benchmarks.contact_constants`.
 DENSE = 0.6
-# Rows: windows of nearly the same width share their operator. A choice: more costs cells, less costs operators.
+# Rows: windows of nearly the same width share their operator. A choice: a larger value costs cells, a smaller one costs
+# operators.
 ROUND = 8
 # Points along each axis of the quarter of the Brillouin zone over which |k| is averaged. A choice, made once for an
-# operator. Half and twice change f by less than .01 % and the work by less than 1 % (constants.csv).
+# operator. Half and twice this value change f by less than .01 % and the work by less than 1 % (constants.csv).
 BRILLOUIN_POINTS = 64
 # Cells that stay in the cache from one pass to the next. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.

@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator
 
 
-# Mean pressure over the heaviest [-] below which the light-load law of one asperity is used. A choice: less costs
-# further nodes.
+# Mean pressure over the heaviest [-] below which the light-load law of one asperity is used. A choice: a smaller value
+# costs further nodes.
 LIGHT_LAW_PRESSURE = 1e-6
 # Distance of the gap from that of first touch, over the accuracy [-], at which lighter nodes end: first touch is exact.
 # A choice: a quarter of the error that is allowed.
 TOUCH_DISTANCE = 0.25
 # Ratio of the pressures of neighbouring nodes at first [-]; small maps have its root. A choice: where nodes are too far
-# apart, some are added between them. Half and twice change f by less than .1 % and the work by up to 13 %
+# apart, some are added between them. Half and twice this value change f by less than .1 % and the work by up to 13 %
 # (constants.csv).
 SPACING = 4.0
 # Cells of a small map, whose summits come into contact one by one. A choice: larger costs nodes.
@@ -51,7 +51,7 @@ CLOSEST_NODES = 0.05
 # Gap over the lightest one [-] below which the contact is full. A choice, near rounding.
 CLOSED_GAP = 1e-9
 # Asperity load ratio [-] above which a relative error of the load is one of f. A choice: below it the error weighs less
-# in proportion. Half and twice change f by less than .01 % and the work by up to 4 % (constants.csv).
+# in proportion. Half and twice this value change f by less than .01 % and the work by up to 4 % (constants.csv).
 LOAD_ERROR_MATTERS = 0.1
 
 # Points across the strip at which the film is averaged. A choice: the film is known to fewer digits.
@@ -294,7 +294,7 @@ def asperity_curve(
             break
     if not nodes:
         raise InputError(
-            f"contact.model = {definition!r}: none on the map of {heights.shape[0]} x {heights.shape[1]} points; give "
+            f"contact.model = {definition!r}: the map of {heights.shape[0]} x {heights.shape[1]} points has none; give "
             "a map with points above all of their neighbours, or contact.model = 'half-space'"
         )
     pressure, gap, area, plastic = np.array(nodes[::-1]).T

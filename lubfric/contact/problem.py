@@ -16,8 +16,9 @@ from .operator import HalfSpace, half_space
 # Cells along an axis below which it is not halved. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 LEAST_HALVED_CELLS = 24
-# Tolerance of a coarse grid [-], which only gives a start. A choice: less costs time on the coarse grid, more on the
-# fine one. Half and twice change f by less than .01 % and the work by up to 1 % less (constants.csv).
+# Tolerance of a coarse grid [-], which only gives a start. A choice: a smaller value costs time on the coarse grid, a
+# larger one on the fine one. Half and twice this value change f by less than .01 % and the work by up to 1 % less
+# (constants.csv).
 START_TOLERANCE = 1e-2
 # Iterations on a coarse grid, at most. A choice: a bound.
 COARSE_ITERATIONS = 60

@@ -41,8 +41,8 @@ LOAD_ERROR = 1e-6
 # Power of the relative length of a step in the next pace [-]. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 LEARNING = 0.3
-# Least and greatest part of the way to the trial [-]. A choice: less damps more, more may overshoot. Half and twice
-# change f by less than .01 % and the work by up to 27 % (constants.csv).
+# Least and greatest part of the way to the trial [-]. A choice: a smaller value damps more, a larger one may overshoot.
+# Half and twice this value change f by less than .01 % and the work by up to 27 % (constants.csv).
 STEP_PARTS = (0.3, 2.0)
 # Shifts of a trial, at most, to make it carry the load. A choice: a bound; less leaves an error of the load to the next
 # trial.

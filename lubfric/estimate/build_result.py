@@ -126,7 +126,7 @@ def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violat
     """Return the warning of a large model-form error with the part of the budget that is larger, if one is."""
     if uncertainty.is_largest_by_model or not uncertainty.largest_part:
         return violation
-    other = f"More of the interval of f comes from another error: {uncertainty.largest_part_in_words}"
+    other = f"A larger part of the interval of f comes from another error: {uncertainty.largest_part_in_words}"
     return replace(violation, recommendation=". ".join(filter(None, (violation.recommendation, other))))
 
 

@@ -14,7 +14,7 @@ from .solve_to_tolerance import solve_to_tolerance
 
 # Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
 # a point ends with. As much is left to the answer, and to the ends of input ranges, after a more expensive model was
-# tried in vain. A choice: less leaves points without an answer.
+# tried in vain. A choice: a smaller value leaves points without an answer.
 LEAST_WORK_OF_CHEAPEST = 10.0
 
 # Severe violations of one model only. Another model continues the patch, so that its f may have a meaning.

@@ -53,7 +53,7 @@ def _violations_by_error(scene: Scene, sample: Sample, point: PointWorkEstimate)
         value=stated,
         limit=limit,
         unit="%",
-        consequence=f"{too_small}, by closed forms to about a factor of 3 in the error; the interval of f includes it",
+        consequence=f"{too_small}, estimated with closed forms (error within a factor of 3); the interval of f includes the error",
         recommendation=f"give {way_to_longer_line(scene, sample.whole_map)}, or use f with its interval",
         effect=0.01 * stated,
     )

@@ -18,10 +18,10 @@ from .problem import FilmProblem, film_problem
 from .reynolds import FilmSolution
 from .start import FilmState, solution_state
 
-# Flow over the flooded one [-] below which the flow of a starved film falls by steps. A choice: less saves films, and
-# may fail.
+# Flow over the flooded one [-] below which the flow of a starved film falls by steps. A choice: a smaller value saves
+# films, and may fail.
 FLOW_BY_STEPS = 0.5
-# Flow of a step over that of the one before [-]. A choice: less needs fewer films, and may lose the way.
+# Flow of a step over that of the one before [-]. A choice: a smaller value needs fewer films, and may lose the way.
 FLOW_OF_STEP = 0.6
 # Effort of the films on the way. A choice: that of two grids (`TWO_GRIDS_TOLERANCE`), for a start.
 EFFORT_ON_THE_WAY = Effort(5e-3)

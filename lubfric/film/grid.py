@@ -16,26 +16,27 @@ import numpy as np
 from .._base import FloatArray
 
 # Distance of the inlet over sqrt(2 R h) [-], beyond three half-widths. A choice: further costs cells, nearer thins the
-# film (`EHLResult` estimates by how much). Half and twice change f by less than .01 %, its interval by up to 32 % and
-# the work by up to 2 % (constants.csv).
+# film (`EHLResult` estimates by how much). Half and twice this value change f by less than .01 %, its interval by up to
+# 32 % and the work by up to 2 % (constants.csv).
 FAR_INLET = 30.0
 # Smallest cell where the pressure rises over the length of the rise [-]. The five sizes and growths of cells were
-# chosen for the least error of the film at 192 cells against 1536 (`node_positions`). Half and twice change f by less
-# than .01 %, its interval by up to 3.8 % and the work by up to 1 % (constants.csv).
+# chosen for the least error of the film at 192 cells against 1536 (`node_positions`). Half and twice this value change
+# f by less than .01 %, its interval by up to 3.8 % and the work by up to 1 % (constants.csv).
 RISE_CELL = 0.3
-# Growth of the cells with the distance from there [-]; chosen so. Half and twice change f by less than .01 %, its
-# interval by up to 22 % and the work by up to 1 % less (constants.csv).
+# Growth of the cells with the distance from there [-]; chosen so. Half and twice this value change f by less than .01
+# %, its interval by up to 22 % and the work by up to 1 % less (constants.csv).
 RISE_GROWTH = 0.35
 # Smallest cell at the rupture point, where film and pressure spike are, over the length there [-]; chosen so. Half and
-# twice change f by less than .01 %, its interval by up to 44 % and the work by less than 1 % (constants.csv).
+# twice this value change f by less than .01 %, its interval by up to 44 % and the work by less than 1 %
+# (constants.csv).
 RUPTURE_CELL = 0.1
-# Growth of the cells with the distance from the rupture point [-]; chosen so. Half and twice change f by less than .01
-# %, its interval by up to 36 % and the work by up to 1 % (constants.csv).
+# Growth of the cells with the distance from the rupture point [-]; chosen so. Half and twice this value change f by
+# less than .01 %, its interval by up to 36 % and the work by up to 1 % (constants.csv).
 RUPTURE_GROWTH = 0.28
 # Nodes of a face in third-order upwind interpolation. By definition of that scheme.
 UPWIND = (-1, 0, 1)
-# Cells spread evenly over the contact, relative to the others [-]; chosen so. Half and twice change f by less than .01
-# %, its interval by up to 3.1 % and the work by less than 1 % (constants.csv).
+# Cells spread evenly over the contact, relative to the others [-]; chosen so. Half and twice this value change f by
+# less than .01 %, its interval by up to 3.1 % and the work by less than 1 % (constants.csv).
 EVEN_CELLS_WEIGHT = 1.2
 
 

@@ -62,7 +62,8 @@ TEMPERATURE_TOLERANCE = 1e-6
 # |S| [-] above which the factors of the inlet are used outside the range they were made for. A choice: both were fitted
 # near rolling, and differ the more the larger S.
 MOST_SLIDE_ROLL_RATIO_OF_INLET = 0.5
-# L [-] above which neither factor is supported by the solutions it was fitted to. A choice: less warns of more films.
+# L [-] above which neither factor is supported by the solutions it was fitted to. A choice: a smaller value warns of
+# more films.
 MOST_THERMAL_LOADING = 20.0
 # Temperature [K] at which the viscosity of Roelands' law is infinite. By definition of that law (Roelands 1966).
 ROELANDS_ZERO = 138.0

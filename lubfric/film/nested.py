@@ -14,31 +14,36 @@ from .problem import FilmProblem
 from .reynolds import FilmSolution, newton
 from .start import FilmState, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
-# Cells of the coarsest grid of a cold start. A choice: less costs failed starts, more costs time. Half and twice change
-# f by less than .1 %, its interval by up to 290 % and the work by up to 8 % (constants.csv).
+# Cells of the coarsest grid of a cold start. A choice: a smaller value costs failed starts, a larger one costs time.
+# Half and twice this value change f by less than .1 %, its interval by up to 290 % and the work by up to 8 %
+# (constants.csv).
 COARSEST_CELLS = 48
-# Grids from which a cold start is tried, each with twice the cells. A choice: more costs time before a film fails.
+# Grids from which a cold start is tried, each with twice the cells. A choice: a larger value costs time before a film
+# fails.
 STARTS = 5
 # Cells of the finest grid. A choice, for time and memory: the work grows with the cube of the cells.
 FINEST_CELLS = 3072
-# Moes' M [-] beyond which COARSEST_CELLS cells do not resolve the inlet. A choice: less costs cells, more costs cold
-# starts that fail.
+# Moes' M [-] beyond which COARSEST_CELLS cells do not resolve the inlet. A choice: a smaller value costs cells, a
+# larger one costs cold starts that fail.
 WIDE_LOAD_NUMBER = 2000.0
 # Tolerance [-] from which two grids are enough for a cold start. A choice: a third grid shows the order of the error,
-# and costs more than both. Half and twice change f by less than .1 %, its interval by up to 74 % and the work by up to
-# 1 % (constants.csv).
+# and costs more than both. Half and twice this value change f by less than .1 %, its interval by up to 74 % and the
+# work by up to 1 % (constants.csv).
 TWO_GRIDS_TOLERANCE = 5e-3
-# Inlet over that of a flooded film [-] from which a meniscus starts inwards. A choice: more costs further solves, less
-# may fail. Half and twice change f by less than .01 % and the work by less than 1 % (constants.csv).
+# Inlet over that of a flooded film [-] from which a meniscus starts inwards. A choice: a larger value costs further
+# solves, a smaller one may fail. Half and twice this value change f by less than .01 % and the work by less than 1 %
+# (constants.csv).
 WIDE_INLET = 3.0
-# Distance of the meniscus after a step over that before [-]. A choice: less costs fewer solves, and may fail.
+# Distance of the meniscus after a step over that before [-]. A choice: a smaller value costs fewer solves, and may
+# fail.
 MENISCUS_APPROACH = 0.5
 # Critical stress over the oil's own [-], from a Newtonian flow to the oil's law. A choice: fewer save solves, and may
 # fail.
 STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)
-# Moes' L [-] up to which Newton's method starts safely. A choice: more saves solves of hard films, and may fail.
+# Moes' L [-] up to which Newton's method starts safely. A choice: a larger value saves solves of hard films, and may
+# fail.
 EASY_MATERIAL_NUMBER = 4.0
-# Growth of L between two solutions [-]. A choice: more saves solves of hard films, and may fail.
+# Growth of L between two solutions [-]. A choice: a larger value saves solves of hard films, and may fail.
 GROWTH_OF_MATERIAL_NUMBER = 1.4
 
 

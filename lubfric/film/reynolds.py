@@ -29,11 +29,11 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import FilmProblem
 
-# Largest change of ln(eta) in one step [-]. A choice: more saves steps where all goes well, and may fail. Half and
-# twice change f by less than .01 % and the work by less than 1 % (constants.csv).
+# Largest change of ln(eta) in one step [-]. A choice: a larger value saves steps where all goes well, and may fail.
+# Half and twice this value change f by less than .01 % and the work by less than 1 % (constants.csv).
 VISCOSITY_STEP = 3.0
-# Largest share of the film, or of the flux, that one step may remove [-]. A choice: more saves steps where all goes
-# well, and may fail.
+# Largest share of the film, or of the flux, that one step may remove [-]. A choice: a larger value saves steps where
+# all goes well, and may fail.
 MOST_FILM_STEP = 0.7
 # Counted work [s of a usual core] of a Newton step, whatever its cells: 1.4 to 1.6e-4 was measured on 48 and 96 cells.
 STEP_WORK = 1.4e-4

@@ -19,8 +19,8 @@ RANGE = (200.0, 600.0)
 LEAST_VISCOSITY_AT_100 = 2e-6
 # Constant of procedure B of ASTM D2270 [-].
 ASTM_D2270_B = 0.00715
-# Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250. A choice: less refuses oils that
-# may be.
+# Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250. A choice: a smaller value refuses
+# oils that may be.
 MOST_INDEX = 400.0
 with (resources.files(__package__) / "d2270.txt").open() as _file:
     AT_100, LOW, HIGH = np.loadtxt(_file, unpack=True)  # mm²/s: at 100 °C; L and H of the standard

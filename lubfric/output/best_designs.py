@@ -43,9 +43,9 @@ RULE = (
     "cannot be distinguished if they differ by less than the error of their difference, or if an interval is not "
     "known. Numerical and sampling errors count as independent, and so do model-form errors, except those of the "
     "quick model and of the load-sharing model in designs that differ by the size of the roughness, radius, viscosity "
-    "or boundary friction alone: these are correlated, as pairs of solved contacts show. Ranges of inputs that all "
-    "designs share, as these are not varied, are left out but for the difference of what they change in both points. "
-    "The interval of f contains them, so intervals of points that can be distinguished may overlap."
+    "or boundary friction alone: these are correlated, as pairs of solved contacts show. Ranges of inputs that "
+    "are not varied are common to all designs: only the difference of their effects on the two points counts. "
+    "The interval of f contains these ranges, so intervals of points that can be distinguished may overlap."
 )
 
 

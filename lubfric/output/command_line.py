@@ -63,7 +63,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 1 if isinstance(error, ConvergenceError) else 2
     except MemoryError as error:
         needed = str(error) or "more than this process may use"
-        say(f"lubfric: the memory is not enough ({needed}); allow more, or give a smaller map or fewer cells")
+        say(f"lubfric: not enough memory: it needs {needed}; allow more, or give a smaller map or fewer cells")
         return 1
     except KeyboardInterrupt as error:
         message, code = error.args if len(error.args) == 2 else ("interrupted", INTERRUPTED)

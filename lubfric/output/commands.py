@@ -212,7 +212,9 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
         kept = what()
         message = f"interrupted; {kept}: the same command continues from there"
         if not kept:
-            message = "interrupted; nothing is solved so far that could be kept: the same command begins again"
+            message = (
+                "interrupted; no result is complete so far, so none is kept: the same command starts from the beginning"
+            )
         raise KeyboardInterrupt(message, *error.args[1:] or (INTERRUPTED,)) from None
 
 

@@ -107,7 +107,7 @@ def _inputs_in_interval(point: FrictionResult) -> list[str]:
     *first, last = labels
     words = " and ".join(filter(None, (", ".join(first), last)))
     ranges = "ranges" if first else "range"
-    return [f"The interval contains the {ranges} of {words}. All other inputs count as exact."]
+    return [f"The interval contains the {ranges} of the {words}. All other inputs count as exact."]
 
 
 def change_of_model(curve: CurveResult) -> list[str]:

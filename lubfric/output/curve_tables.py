@@ -118,7 +118,7 @@ def _error_of_loads(curve: CurveResult) -> str:
     largest = f"up to {size} (at {worded(worst, COLUMNS[swept].unit)})" if len(errors) > 1 else size
     return (
         f"Asperity load and film load have a standard error of {largest}, by the scatter of the surface and by the "
-        "cells. That of f is smaller, because what rubs less is sheared more."
+        "cells. The error of f is smaller, because load that the asperities lose still causes friction in the film."
     )
 
 

@@ -63,7 +63,7 @@ def effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
                 largest[effect.what] = (change, effect, place_on_curve(curve, index))
     shown = sorted(largest.values(), key=lambda row: -row[0])
     place = "at other points of the curve"
-    which = ", each at that at which it changes f the most"
+    which = ", each at the point where it changes f the most"
     moments = [where.removeprefix("at ") for *_, where in shown]
     return effects_table([effect for _, effect, _ in shown], place, which, moments) if shown else ""
 

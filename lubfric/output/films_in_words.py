@@ -33,7 +33,7 @@ def note_on_touching(films: Iterable[float]) -> str:
     near = [film for film in films if is_gap_of_touching(film) or FLOOR < film < NEAR_FLOOR]
     if not near:
         return ""
-    of_means = f"; one below {1e9 * NEAR_FLOOR:.0f} nm is a mean with strips or moments that have this gap"
+    of_means = f"; one below {1e9 * NEAR_FLOOR:.0f} nm is a mean over strips or times, some of which have this gap"
     return f"A smallest film of 1 nm is {GAP_OF_TOUCHING}{'' if all(map(is_gap_of_touching, near)) else of_means}."
 
 

@@ -206,7 +206,7 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
         return f"{answers} Heat causes half or more of its model-form error, which no steady point reduces."
     where = "" if np.array_equal(cool, wide) else f", at the {counted(int(cool.sum()), 'outputs')} less changed by heat"
     return (
-        f"{answers} For a narrower interval of a moment{where}, solve a steady point with its values and "
+        f"{answers} For a narrower interval at one time{where}, solve a steady point with its values and "
         "numerics.model = 'deterministic' (a scene without [transient])."
     )
 

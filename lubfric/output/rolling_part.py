@@ -47,4 +47,4 @@ def negative_in_words(rolling: FloatArray, power_loss: FloatArray) -> str:
 
 def heading_of_rolling(unit: str) -> str:
     """Return the heading of the column of rolling resistance in a ``unit``, after that of the power loss."""
-    return f"of it rolling resistance [{printed(unit)}]"
+    return f"part of P by rolling resistance [{printed(unit)}]"

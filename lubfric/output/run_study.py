@@ -108,8 +108,8 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(message, report, result)
 
 
-# Time between two points up to which a process handed them over together [s]. A choice: less counts a batch as points
-# one by one, and the time left jumps.
+# Time between two points up to which a process handed them over together [s]. A choice: a smaller value counts a batch
+# as points one by one, and the time left jumps.
 SECONDS_OF_A_BATCH = 0.2
 
 # Time after which points that come one after the other are counted anew for the time left [s]. A choice: more updates
@@ -187,7 +187,7 @@ def _point_reports(plan: studies.StudyPlan, begun: float, time_left: TimeLeft | 
         if not isinstance(outcome, FrictionResult):
             of_point = place if plan.chooses_speeds else numbered_point(plan, index)
             earlier = first_with_reason.setdefault(text, of_point)
-            text = text if of_point == earlier else f"{_how_it_failed(outcome)} for the reason of {earlier}"
+            text = text if of_point == earlier else f"{_how_it_failed(outcome)} for the same reason as {earlier}"
         say(f"{head} {place}: {text} ({ends})")
 
     return on_point
@@ -249,7 +249,7 @@ def run_fit(arguments: Namespace) -> None:
                 f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} of the stated deviations"
             )
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
-            to_come = f"about {studies.in_words(left)} left" if done < total else "the last one that was expected"
+            to_come = f"about {studies.in_words(left)} left" if done < total else "the last of the expected curves"
             passed = f"{begun.processor_seconds:.0f} s of processor time, {to_come}"
             state = (
                 f"fit, curve {done} of about {total}: smallest root mean square residual so far {misfit_in_words}, "

@@ -12,7 +12,8 @@ from ..units import worded
 
 # Processor time over its estimate [-] from which on a run is slow. A choice: four of five runs take less.
 SLOW_RATIO = 3.0
-# Part of the estimate [-] in which a run advances by `LEAST_ADVANCE`, or is slow. A choice: less would name reversals.
+# Part of the estimate [-] in which a run advances by `LEAST_ADVANCE`, or is slow. A choice: a smaller value would name
+# reversals.
 SLOW_PART = 0.1
 # Part of the duration [-]. A choice, as above.
 LEAST_ADVANCE = 0.01

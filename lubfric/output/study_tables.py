@@ -38,7 +38,7 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
 FOLDED_FILMS = ("full_load_film", "central_film", "min_film")
 # Style of cells that would wrap in a table of many columns: intervals of f, and numbers with their interval.
 UNBROKEN = "white-space: nowrap"
-# Digits of what is varied, which is exact. A choice: less makes neighbours alike.
+# Digits of what is varied, which is exact. A choice: a smaller value makes neighbours alike.
 CELL_DIGITS = 4
 # Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
 # shows digits that are not known.

@@ -56,9 +56,9 @@ def _coverage_of_notes(result: StudyResult) -> str:
     """Return whether the intervals of f cover what notes say, as text."""
     known = np.isfinite(result["interval_low"])[np.isfinite(result["coefficient"])]
     if not known.any():
-        return "no point has an interval of f that would cover what the notes say"
+        return "no point has an interval of f that would include their effect"
     where = "" if known.all() else ", where it is known,"
-    return f"the interval of f{where} covers what the notes say, or nothing is to be done about them"
+    return f"they need no action: the interval of f{where} includes their effect, or none helps"
 
 
 def warning_lines(result: StudyResult) -> list[str]:
@@ -68,7 +68,7 @@ def warning_lines(result: StudyResult) -> list[str]:
     if not counts:
         return []
     heads = [first_sentence(each.text) for each in result.gathered if not each.is_note]
-    full = ", and report.html has them in full with what to do"
+    full = ", and report.html has them in full, with recommendations"
     return [f"{counts}{full}{':' if heads else '.'}", *(f"  {head[:1].lower()}{head[1:]}" for head in heads)]
 
 

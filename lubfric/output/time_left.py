@@ -10,8 +10,8 @@ from typing import Any
 from .._base.processor_time import processor_time
 from ..studies import in_words
 
-# Time for which a process is taken to do a second of work in a second [s], until twice as much has passed. A choice:
-# less makes the first estimates jump.
+# Time for which a process is taken to do a second of work in a second [s], until twice as much has passed. A choice: a
+# smaller value makes the first estimates jump.
 USUAL_SECONDS = 5.0
 
 # Processor time [s] that a process has spent at least, for the rate at which it does. A choice: it divides.

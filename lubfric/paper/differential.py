@@ -26,15 +26,16 @@ from ..oil import Lubricant
 from .differential_equations import Mesh, convolve, load_row, make_mesh
 from .differential_newton import DifferentialSolution, newton
 
-# Cells of the first grid, at least. A choice: less may not converge.
+# Cells of the first grid, at least. A choice: a smaller value may not converge.
 FIRST_GRID_CELLS = 64
 # Cells of the last grid, at most. A choice, for time.
 LAST_GRID_CELLS = 32768
-# Grids by which an error is judged: two may agree by chance. A choice: more takes longer.
+# Grids by which an error is judged: two may agree by chance. A choice: a larger value takes longer.
 FEWEST_GRIDS = 3
-# Largest step of a first grid over the length of the pressure rise [-]. A choice: more may not converge.
+# Largest step of a first grid over the length of the pressure rise [-]. A choice: a larger value may not converge.
 MOST_FIRST_STEP = 0.7
-# Cells of the graded grid from which `lubfric.solve_ehl` may start. A choice: more takes longer, and is a start alone.
+# Cells of the graded grid from which `lubfric.solve_ehl` may start. A choice: a larger value takes longer, and is a
+# start alone.
 STATE_CELLS = 96
 
 

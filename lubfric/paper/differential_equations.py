@@ -31,8 +31,8 @@ import numpy as np
 
 from ..film import FilmProblem, log_mean_fluidity, moes_film
 
-# Largest distance [nodes] whose pressures are implicit: it changes only the time. A choice: more takes longer in a
-# step, less takes more steps.
+# Largest distance [nodes] whose pressures are implicit: it changes only the time. A choice: a larger value takes longer
+# in a step, a smaller one takes more steps.
 BANDWIDTH = 8
 # Distance [nodes] from which the second difference of the kernel is a series. A choice: the series is exact to rounding
 # there.

@@ -19,8 +19,8 @@ from .differential_equations import DifferentialTerms, Mesh
 
 # GMRES vectors in one Newton step, at most. A choice, for memory.
 KRYLOV_LIMIT = 40
-# Share of the far deflection [-] that a Newton step may leave to the next one. A choice: more takes more Newton steps,
-# less more of GMRES.
+# Share of the far deflection [-] that a Newton step may leave to the next one. A choice: a larger value takes more
+# Newton steps, a smaller one more of GMRES.
 FORCING = 1e-2
 
 

@@ -25,8 +25,8 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, impose
 
 STOPS = ("residual", "separation")
-# Iterations without a tenth off the best residual after which the loop has stagnated. A choice: less may end a search
-# that would converge.
+# Iterations without a tenth off the best residual after which the loop has stagnated. A choice: a smaller value may end
+# a search that would converge.
 LOOP_PATIENCE = 200
 
 

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 # Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure. A
 # choice: √(1 - 1/16) is .97.
 STEPS_OF_HALF_WIDTH = 2.0
-# Tolerance of the dry contact [-], at most: its overlaps become heights. A choice: less takes more iterations.
+# Tolerance of the dry contact [-], at most: its overlaps become heights. A choice: a smaller value takes more
+# iterations.
 PASS_TOLERANCE = 1e-5
 # Processor seconds of an iteration of a contact of a pass, whatever its cells, and over its cells. These and the next
 # three are fitted to the counted work of 38 runs of `python -m verification.campaigns.estimates`; their time is .8 to

@@ -43,17 +43,17 @@ CELLS_PER_HALF_WIDTH = 2.0
 CELLS_PER_HALF_WIDTH_IN_MOTION = 6.0
 
 # Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned. A choice:
-# it allows two halvings. Half and twice change f by up to 1.4 %, its interval by up to 1.3 % and the work by up to 40 %
-# (constants.csv).
+# it allows two halvings. Half and twice this value change f by up to 1.4 %, its interval by up to 1.3 % and the work by
+# up to 40 % (constants.csv).
 COLUMNS_MULTIPLE = 4
 
 # Cells along y come in multiples of this number times a fast length of the transform, so that lengths can be halved
 # four times.
 ROWS_MULTIPLE = 16
 
-# Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher. A choice: more
-# takes wider strips. Half and twice change f by up to 1.8 %, its interval by up to 1.5 % and the work by up to 21 %
-# (constants.csv).
+# Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher. A choice: a
+# larger value takes wider strips. Half and twice this value change f by up to 1.8 %, its interval by up to 1.5 % and
+# the work by up to 21 % (constants.csv).
 HIGHEST_SUMMITS = 4.5
 
 

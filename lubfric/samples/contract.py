@@ -151,7 +151,10 @@ class Sample(ABC):
         joined = (
             f"the first {self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
         )
-        statistics = f"statistics of {joined}, whose Sq the lambda ratio of a steady point has: {replace(surface, source='').describe()}"
+        statistics = (
+            f"statistics of {joined}, whose Sq the lambda ratio of a steady point uses: "
+            f"{replace(surface, source='').describe()}"
+        )
         return [self.map_in_words(surface), statistics]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
@@ -162,9 +165,7 @@ class Sample(ABC):
     def map_in_words(self, surface: Surface) -> str:
         """Return in words the map that the scene has, of which ``surface`` is the `stated_map`."""
         length = worded(self.line_length(1), "m")
-        return (
-            f"{surface.source}, as an infinite line contact in strips of {length}, as many as the sampling error needs"
-        )
+        return f"{surface.source}, sampled as an infinite line contact by strips of {length}; the sampling error sets their number"
 
     def ends_after(self, count: int) -> bool:
         """Return whether the surface itself, not the work on it, ends after ``count`` strips."""

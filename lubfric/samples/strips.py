@@ -36,8 +36,8 @@ from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 from .windows import blend_of, joined_maps, spread_order, starts_of
 
 # Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py). A choice: longer
-# strips may be longer than a point needs. Half and twice change f by up to 3.8 %, its interval by up to 2.5 % and the
-# work by up to 10 % less (constants.csv).
+# strips may be longer than a point needs. Half and twice this value change f by up to 3.8 %, its interval by up to 2.5
+# % and the work by up to 10 % less (constants.csv).
 STRIP_LENGTHS = 90.0
 
 # Correlation lengths in the Hertz half-width from which on a strip half as long has as many asperity contacts. Not
@@ -54,16 +54,16 @@ MOVING_STRIP_LENGTHS = 30.0
 # verification.campaigns.constants`).
 FIRST_LENGTHS = 180.0
 
-# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice: more
-# takes longer and more memory.
+# Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has. A choice: a larger
+# value takes longer and more memory.
 MOST_LENGTHS = 46080.0
 
-# Cells of joined strips, at most, for memory: 24 MB for each field. A choice: more takes more memory, less leaves wide
-# contacts shorter strips.
+# Cells of joined strips, at most, for memory: 24 MB for each field. A choice: a larger value takes more memory, a
+# smaller one leaves wide contacts shorter strips.
 MOST_JOINED_CELLS = 3_000_000
 
-# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights. A choice: less makes
-# strips again.
+# Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights. A choice: a smaller
+# value makes strips again.
 KEPT_CELLS = 2_000_000
 
 # Correlation lengths along the motion between windows of a measured map that count as independent: a Gaussian
@@ -78,7 +78,7 @@ LEAST_OVER_BLEND = 4
 WINDOW_ROWS_MULTIPLE = 4
 
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %. A
-# choice: more lets windows reach over the ends of more maps.
+# choice: a larger value lets windows reach over the ends of more maps.
 ENOUGH_WINDOWS = 8
 
 # Deviation of the Sq of strips from that of their map, relative, below which it is not stated. A convention.

@@ -3,8 +3,8 @@
 import numpy as np
 
 # Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there. A choice:
-# shorter steps show, longer ones smooth more. Half and twice change f by up to 1.6 %, its interval by up to 1.6 % and
-# the work by up to 16 % (constants.csv).
+# shorter steps show, longer ones smooth more. Half and twice this value change f by up to 1.6 %, its interval by up to
+# 1.6 % and the work by up to 16 % (constants.csv).
 BLEND = 2.0
 
 

@@ -42,8 +42,8 @@ TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, an
     "Cannot overwrite": TOML_TWICE,
     "Unclosed array": "a list has no closing bracket; add ]",
     "Unclosed inline table": "a table has no closing brace; add }",
-    "Invalid hex value": "a backslash is a mark in double quotes; write a path with / or in single quotes",
-    "Unescaped '\\'": "a backslash is a mark in double quotes; write a path with / or in single quotes",
+    "Invalid hex value": "in double quotes a backslash begins an escape sequence; write a path with / or in single quotes",
+    "Unescaped '\\'": "in double quotes a backslash begins an escape sequence; write a path with / or in single quotes",
 }
 SCENES = resources.files(__package__) / "scenes"
 

@@ -288,7 +288,7 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
         most = max(numbers, key=abs)
         return (
             f"did you mean slide_roll_ratio = {most:g}, which is {100 * most:g} %? "
-            f'Write slip_percent = "{most:g} %" where percent are meant.'
+            f'Write slip_percent = "{most:g} %" if percent is meant.'
         )
     follows_from_speeds = any(float(f"{size:.{DIGITS_OF_A_RATIO}g}") != size for size in sizes)
     if follows_from_speeds:
@@ -297,7 +297,7 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
         least = min(numbers, key=abs)
         return (
             f"did you mean slip_percent = {least:g}? "
-            f'Write slide_roll_ratio = "{100 * least:g} %" where the ratio is meant.'
+            f'Write slide_roll_ratio = "{100 * least:g} %" if the ratio is meant.'
         )
     return ""
 

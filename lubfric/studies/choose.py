@@ -26,8 +26,8 @@ ALIKE = 1e-6
 # Most speeds that a curve chooses. A choice: a bound of the work.
 MOST_CHOSEN_SPEEDS = 25
 
-# Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication. A choice: less costs speeds
-# that show f_b alone.
+# Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication. A choice: a smaller value costs
+# speeds that show f_b alone.
 BOUNDARY_FILM_RATIO = 0.02
 
 # Moes' film of the whole load over Sq at the fast end of a curve: full-film lubrication. A choice, twice that of
@@ -52,15 +52,15 @@ FIRST_SPEEDS = 5
 SLOWEST_SEARCHED = 1e-9
 FASTEST_SEARCHED = 1e3
 
-# Ratio of the slowest film without contact to lift-off up to which lift-off is known. A choice: less takes a further
-# point.
+# Ratio of the slowest film without contact to lift-off up to which lift-off is known. A choice: a smaller value takes a
+# further point.
 LIFT_OFF_KNOWN_ABOVE = 1.2
 
 # Speed over lift-off at which a film without contact is solved. A choice: nearer it may meet contact.
 SPEED_ABOVE_LIFT_OFF = 1.1
 
-# Ratio of the fastest contact to lift-off from which the end of the contact is known. A choice: more takes a further
-# point.
+# Ratio of the fastest contact to lift-off from which the end of the contact is known. A choice: a larger value takes a
+# further point.
 CONTACT_END_KNOWN_FROM = 0.75
 
 # Speed over lift-off at which a contact is solved. A choice: nearer it may meet no contact.
@@ -79,8 +79,8 @@ ENOUGH_SPEEDS = 2
 ESTIMATE_SHARE = 0.5
 MANY_SPEEDS = 11
 
-# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed. A choice: less
-# takes points that tell nothing new.
+# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed. A choice: a
+# smaller value takes points that tell nothing new.
 LEAST_SPEED_RATIO = 1.015
 
 # Speeds at which the error between the points is estimated. A choice: finer than any two speeds of a curve.

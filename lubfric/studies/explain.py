@@ -277,7 +277,7 @@ def explained(
     elif plan.chooses_speeds:
         lines.append(f"      about {EXPECTED_SPEEDS} speeds that each curve chooses")
     if plan.scene.transient is not None:
-        lines.append("  steady   every point; the histories of the scene ([transient]) are ignored")
+        lines.append("  steady   points only; the histories of the scene ([transient]) are ignored")
     if compared := comparison_in_words(plan):
         lines.append(f"  {compared}")
     table = StudyTable(plan)

@@ -33,7 +33,7 @@ MOST_NUMBERS = 5_000_000
 FEWEST_OF_ORDER = 4
 
 # Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it. A choice:
-# less tests columns of rounding.
+# a smaller value tests columns of rounding.
 LEAST_REST = 1e-3
 
 # Share of the sum of squares from which an offset or a factor is said to explain the residuals. A convention.

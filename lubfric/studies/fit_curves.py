@@ -35,15 +35,16 @@ TIGHTEST = 1e-3
 # more bends over it.
 PARAMETER_STEP = 0.04
 
-# Points of a curve of the coarse search: enough to tell where in the bounds a minimum lies. A choice: more takes
-# longer.
+# Points of a curve of the coarse search: enough to tell where in the bounds a minimum lies. A choice: a larger value
+# takes longer.
 COARSE_POINTS = 8
 
 # Tolerances of the coarse search over those of the fit, and the largest tolerance on f. A choice, for time.
 COARSER = 4.0
 COARSEST_TOLERANCE = 0.05
 
-# Sampling tolerance of the coarse search: that of the first strips, whatever it is. A choice: less takes longer.
+# Sampling tolerance of the coarse search: that of the first strips, whatever it is. A choice: a smaller value takes
+# longer.
 COARSE_SAMPLING = 0.5
 
 

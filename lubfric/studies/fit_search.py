@@ -37,12 +37,12 @@ ALONG_LINEAR = (0.02, 0.26, 0.5, 0.74, 0.98)
 # minimum.
 SURROGATE_STARTS = 16
 
-# Distance of two positions, as a share of the bounds, below which they are one minimum. A choice: less reports a flat
-# minimum twice, more misses near ones.
+# Distance of two positions, as a share of the bounds, below which they are one minimum. A choice: a smaller value
+# reports a flat minimum twice, a larger one misses near ones.
 SAME_MINIMUM = 0.1
 
 # Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation. A choice:
-# less takes curves that tell nothing new.
+# a smaller value takes curves that tell nothing new.
 KNOWN_DISTANCE = 0.01
 
 # Expected decrease of the sum of squares below that of a curve in the same minimum, as a share of it, from which a
@@ -59,8 +59,8 @@ LEAST_BARRIER = 1.02
 # `PARAMETER_STEP`.
 INSIDE = 0.02
 
-# Root mean square residual over the least one up to which another minimum is reported. A choice: more reports minima
-# that the data exclude.
+# Root mean square residual over the least one up to which another minimum is reported. A choice: a larger value reports
+# minima that the data exclude.
 COMPARABLE = 1.5
 
 

@@ -48,8 +48,8 @@ FILM_POWER = 0.8
 NEAR_CONTACT = 1.003
 BEYOND = 1.03
 
-# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated. A choice:
-# less narrows an error that is not measured.
+# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated. A choice: a
+# smaller value narrows an error that is not measured.
 EXTRAPOLATED_ERROR = 0.05
 
 # The same of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A choice: at
@@ -95,8 +95,8 @@ BELOW_SEPARATED = 1e-12
 # that is large.
 LITTLE = 0.02
 
-# Asperity load ratio below which chance rules: how a contact ends is not read off such a point. A choice: less follows
-# chance, more leaves fewer points.
+# Asperity load ratio below which chance rules: how a contact ends is not read off such a point. A choice: a smaller
+# value follows chance, a larger one leaves fewer points.
 LEAST_LOAD_RATIO = 2e-3
 
 # Smallest divisor of an error relative to f. A choice, near the smallest number.

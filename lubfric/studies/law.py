@@ -18,8 +18,8 @@ from .interpolate import Interpolant
 # Speeds of a curve to which a law is fitted, in addition to those that were solved.
 FITTED_SPEEDS = 50
 
-# Relative error of a curve between its points, as it estimates it, up to which it is used. A choice: less leaves fewer
-# points to the law.
+# Relative error of a curve between its points, as it estimates it, up to which it is used. A choice: a smaller value
+# leaves fewer points to the law.
 USABLE_ERROR = 0.02
 
 # Fewest points of a law. A choice: more than the law has parameters.
@@ -38,8 +38,8 @@ MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 # Relative distance by which a number may lie outside a range. A choice, above rounding.
 ROUNDED = 1e-9
 
-# Largest friction of asperity contacts that carry the whole load, over f_b. A choice: more lets the law rise above its
-# points.
+# Largest friction of asperity contacts that carry the whole load, over f_b. A choice: a larger value lets the law rise
+# above its points.
 OVER_REST = 1.1
 
 # Speed over the slowest one below which f falls to 0 at rest. A choice: it is below all points.
@@ -140,12 +140,12 @@ class Law(Shown):
         """How far the formula deviates from the curves to which it is fitted, and how well their points are known, as
         text."""
         of_points = (
-            f"whose points are known within {percent(self.interval)} (95 %, model included)"
+            f"whose points have 95 % intervals of up to {percent(self.interval)} (model-form error included)"
             if np.isfinite(self.interval)
             else "whose points have errors that are not known"
         )
         return (
-            f"off by {percent_or_less(self.rms)} (rms), {percent_or_less(self.largest)} at most, from the solved curves, "
+            f"{percent_or_less(self.rms)} (rms) and at most {percent_or_less(self.largest)} from the solved curves, "
             f"{of_points}"
         )
 

@@ -9,7 +9,7 @@ from ..errors import InputError
 from ..units import in_si
 
 # Relative difference of a step of the coordinates and the spacing from which they contradict each other [-]:
-# coordinates are often kept to six digits. A choice: less refuses rounded coordinates.
+# coordinates are often kept to six digits. A choice: a smaller value refuses rounded coordinates.
 LABEL_TOLERANCE = 1e-3
 
 METRES = ("", "m", "metre", "metres", "meter", "meters")

@@ -23,16 +23,16 @@ STEP_TOLERANCE = 3e-5
 # stop_and_start, 70 in a piston ring, 80 in a cam.
 STEPS_OF_CHANGE = 60.0
 
-# Part of them [-] that a film takes less which fills the whole gap: 63 to 97 steps for 139 to 155 in five random runs
-# of `python -m verification.campaigns.estimates` at lambda ratios above 2.3.
+# Part of these steps that a run saves where the film fills the complete gap [-]: 63 to 97 steps for 139 to 155 in five
+# random runs of `python -m verification.campaigns.estimates` at lambda ratios above 2.3.
 SPARED_BY_FILM = 0.5
 
-# How many times as many steps the load takes: measured 13 in a light and slow contact, 60 in a
-# ring of thick film.
+# Steps that a change of the load takes, over those of a change of the speed [-]: measured 13 in a light and slow
+# contact, 60 in a ring of thick film.
 CHANGE_OF_LOAD = 0.5
 
-# How many times as many steps the radius takes, which moves the whole gap around the contact. A choice, above that of
-# the load.
+# Steps that a change of the radius takes, over those of a change of the speed [-]: it moves the complete gap around the
+# contact. A choice, above that of the load.
 CHANGE_OF_RADIUS = 3.0
 
 # Part of the largest speed below which the acceleration of a reversal is looked up. A choice, for an estimate.
@@ -42,12 +42,12 @@ SLOW = 0.1
 # estimates alone.
 SMALLEST_SPEED = 1e-3
 
-# Speeds between that and the largest one at which the film is estimated. A choice: more takes longer, less errs more
-# between them.
+# Speeds between that and the largest one at which the film is estimated. A choice: a larger value takes longer, a
+# smaller one errs more between them.
 SPEEDS_OF_FILM = 16
 
-# Times in a period, or in a run without periods, at which its histories are compared. A choice: more takes longer, less
-# misses short events.
+# Times in a period, or in a run without periods, at which its histories are compared. A choice: a larger value takes
+# longer, a smaller one misses short events.
 TIMES_OF_PERIOD = 128
 
 # Periods that are looked at; the others are like them. A choice, for time.

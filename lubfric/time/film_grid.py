@@ -16,7 +16,7 @@ from .._base import FloatArray
 from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 
 # Choices between work and error: the error of the steady start is measured in every run (`film_setting.NODE_FACTORS`).
-# Half and twice change f by up to .1 % and the work by up to 13 % (constants.csv).
+# Half and twice this value change f by up to .1 % and the work by up to 13 % (constants.csv).
 EDGE_CELL = 0.16  # smallest cell over the length of the pressure rise
 EDGE_GROWTH = 0.3  # of the cells with the distance from there
 EVEN_CELLS_WEIGHT_IN_TIME = 12.0  # cells spread evenly over the contact, which fronts of the film travel through

@@ -15,7 +15,8 @@ from .film_equations import Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
 from .march import Memory, Step
 
-# Choices between work and error. Half and twice change f by up to .2 % and the work by up to 23 % (constants.csv).
+# Choices between work and error. Half and twice this value change f by up to .2 % and the work by up to 23 %
+# (constants.csv).
 NODE_FACTORS = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 NODE_DENSITY = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
 SLOWEST_RESOLVED = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
@@ -25,7 +26,7 @@ TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unles
 LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 # Mass missing in a control volume over the flow that the motion drags through it [-] above which Newton's method takes
 # one more step: some hundred volumes then miss less than the limit of the balance of a run
-# (`lubfric.time.result.MASS`). A choice: less takes more steps.
+# (`lubfric.time.result.MASS`). A choice: a smaller value takes more steps.
 MISSING_FLOW = 1e-6
 # Successive steps of Newton's method in which an end of the film fills one node each [-], from which on it fills more
 # in each: two, four, eight. Where the entrainment reverses, the film grows by 20 to 50 nodes in a step in time; a cam

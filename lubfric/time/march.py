@@ -25,7 +25,8 @@ from ..quantities import counted
 from ..scene import History
 from ..units import plain_number, worded
 
-# Choices: larger steps are rejected more often, smaller ones are more. BDF2 is stable for growth below 1 + √2.
+# Choices: larger steps are rejected more often, smaller steps are more numerous. BDF2 is stable for growth below 1 +
+# √2.
 TIME_STEP_SAFETY = 0.85  # of the step that the error allows
 LEAST_TIME_STEP_RATIO = 0.2  # of a step to the one before
 TIME_STEP_GROWTH = 2.0  # the most of that ratio

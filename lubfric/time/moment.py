@@ -44,8 +44,8 @@ from .march import Progress, Step
 from .moment_columns import ends_of_film, motion_columns, sense_of, sense_of_friction
 from .scene_in_time import scene_at, sliding_at
 
-# Of central film x largest speed: less flow than this is a film at rest; a choice: less states the film of a reversal
-# by its flow, which is near 0.
+# Flow over central film times largest speed, below which the film counts as at rest [-]. A choice: with a smaller value
+# the film of a reversal is stated by its flow, which is near 0.
 NO_FLOW = 1e-2
 
 STEADY_ONLY = (
@@ -59,15 +59,15 @@ STANDSTILL_SPEED = 1e-6
 LOG_LOAD_STEP = 0.05
 
 
-# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then. A choice:
-# less states relative errors of numbers near 0.
+# Part of f_b below which f is as good as 0: the error of its shear is compared with that part of f_b then. A choice: a
+# smaller value states relative errors of numbers near 0.
 SMALL_FRICTION = 0.01
 
 # Cells beyond the last node with pressure to which the rupture of the film is extrapolated, at most. A choice, against
 # noise.
 MOST_OF_CELL = 2.0
 
-# Force [N] by which nothing is divided. A choice, near the smallest number.
+# Force [N] below which no number is divided by a force. A choice, near the smallest number.
 TINY_FORCE = 1e-300
 
 

@@ -62,8 +62,8 @@ FEWEST_OF_MEAN = 2
 PARTS_NOT_IN_TIME = ("not given",)
 POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
 
-# Difference of speeds and load, over the largest, below which two moments have the same conditions. A choice: less
-# misses rounded periods.
+# Difference of speeds and load, over the largest, below which two moments have the same conditions. A choice: a smaller
+# value misses rounded periods.
 SAME_CONDITIONS = 1e-3
 
 # Difference of the asperity load ratio, and relative one of the film, from which two moments differ. A choice: what a

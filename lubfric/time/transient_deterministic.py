@@ -63,12 +63,14 @@ from .scene_in_time import SLIDING_PART, check_start, scene_at, sliding_at, surf
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
 MOST_NEWTON_STEPS_IN_TIME = 25  # Newton steps in a step
-# Of the fastest entrainment (without any, of b over the duration): slower one counts as that, and a result as at rest.
-# A choice: more than the rounding errors of a frequency leave at a reversal, less than any flow that matters.
+# Least entrainment speed over the fastest one (without entrainment, over b/duration) [-]: slower entrainment is set to
+# it, and such a result counts as at rest. A choice: a larger value than the rounding errors of a frequency leave at a
+# reversal, a smaller one than any flow that matters.
 REST = 1e-6
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
-# Steps beside those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20 outputs.
+# Steps in addition to those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20
+# outputs.
 OTHER_STEPS = 5
 # Processor time of a step over its counted work by the steps of a steady point, about. Measured in runs of `python -m
 # verification.campaigns.estimates`.

@@ -207,7 +207,9 @@ sys.exit(main(["info", "flat"]))
 """
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
     assert run.returncode == 1 and run.stdout == "" and run.stderr.count("\n") == 1
-    assert "the memory is not enough (at least" in run.stderr and "MB of address space, and the limit is" in run.stderr
+    assert (
+        "not enough memory: it needs at least" in run.stderr and "MB of address space, and the limit is" in run.stderr
+    )
 
 
 @pytest.mark.parametrize("error", [MemoryError(), ImportError("x.so: failed to map segment from shared object")])
@@ -216,7 +218,7 @@ def test_too_little_memory_for_the_modules_is_one_line(monkeypatch, capsys, erro
     monkeypatch.setattr("lubfric.output.main", raising(error))
     with pytest.raises(SystemExit, match="1"):
         runpy.run_module("lubfric", run_name="__main__")
-    assert capsys.readouterr().err.startswith("lubfric: the memory is not enough to load its modules")
+    assert capsys.readouterr().err.startswith("lubfric: not enough memory to load its modules")
     monkeypatch.setattr("lubfric.output.main", raising(ImportError("no module")))
     with pytest.raises(ImportError):
         runpy.run_module("lubfric", run_name="__main__")

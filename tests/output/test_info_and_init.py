@@ -497,7 +497,7 @@ def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path):
     stated = re.search(r"of which ([\d.]+) mW is rolling resistance \(± ([\d.]+) %\)", page)
     assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=5e-3) and rolling > 0
     of_points = page.split("<h2>Operating points</h2>")[1].partition("</table>")[0]
-    place = re.findall(r"<th[^>]*>([^<]*)</th>", of_points).index("of it rolling resistance [mW]")
+    place = re.findall(r"<th[^>]*>([^<]*)</th>", of_points).index("part of P by rolling resistance [mW]")
     cells = re.findall(r"<td[^>]*>([^<]*)</td>", of_points)
     assert float(cells[place]) == pytest.approx(1e3 * rolling, rel=5e-3)
     half_width = float(row["power_loss_high [W]"]) - float(row["power_loss [W]"])

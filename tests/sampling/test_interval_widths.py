@@ -297,7 +297,7 @@ def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
     film = replace(known, not_given=0.53, missing_input="bodies.boundary_film")
     said = beside_larger_part(of_model, film).recommendation
     assert (
-        said.startswith("shorter cells. More of the interval")
+        said.startswith("shorter cells. A larger part of the interval")
         and "not given 53 %; give a measured bodies.boundary_film to reduce it" in said
     )
 

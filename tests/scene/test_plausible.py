@@ -115,7 +115,7 @@ def test_a_doubtful_ratio_keeps_its_sign_in_a_message_with_one_alternative():
     lines = [line for line in given.splitlines() if not line.startswith(("shape", "spacing"))]
     with pytest.raises(lubfric.InputError, match="contact.shape") as caught:
         lubfric.friction(lubfric.load_scene(tomllib.loads("\n".join(lines))))
-    assert "slip_percent = -1.5?" in str(caught.value) and '"-150 %" where the ratio is meant.' in str(caught.value)
+    assert "slip_percent = -1.5?" in str(caught.value) and '"-150 %" if the ratio is meant.' in str(caught.value)
     assert str(caught.value).count("If not") == 1
 
 

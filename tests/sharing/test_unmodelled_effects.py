@@ -49,7 +49,9 @@ def test_the_largest_change_by_an_estimated_pressure_viscosity_coefficient_is_st
         dataclasses.replace(effect, change=0.67 if effect.is_of_alpha else effect.change, what="in other words")
         for effect in effects
     ]
-    assert "that of measured oils changes f by at most about 67 % either way;" in alpha_of_points_in_words({1: ends}, 1)
+    assert "the range of measured oils changes f by at most about 67 % either way;" in alpha_of_points_in_words(
+        {1: ends}, 1
+    )
     without = [effect for effect in ends if not effect.is_of_alpha]
     assert len(without) == len(ends) - 1 and alpha_of_points_in_words({1: without}, 1) == ""
 
@@ -222,10 +224,12 @@ def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_a
     ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.is_of_alpha]
     section = text.partition("effects not modelled")[2]
     assert len(ends) == 1 and section.count("pressure-viscosity coefficient") == 1
-    (percentage,) = re.search(r"it changes f by at most about ([\d.]+) % either way: by closed forms", section).groups()
+    (percentage,) = re.search(
+        r"this range changes f by at most about ([\d.]+) % either way, estimated with closed forms", section
+    ).groups()
     assert float(percentage) == pytest.approx(100 * ends[0].high, rel=0.06)
     assert f"At {speed:.4g} m/s and a peak Hertz pressure of" in section
-    assert "Give lubricant.pressure_viscosity_coefficient, from a data sheet" in section
+    assert "Give lubricant.pressure_viscosity_coefficient from a data sheet" in section
     given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": ROLLER.lubricant.pressure_viscosity_coefficient})
     assert "pressure-viscosity" not in describe_scene(given).partition("effects not modelled")[2]
 

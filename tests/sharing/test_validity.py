@@ -378,7 +378,9 @@ def test_the_first_line_says_which_inputs_the_interval_contains_and_that_an_esti
         point = lubfric.friction(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), 0.5)
         texts.append((point.uncertainty.short(point.coefficient), point.not_in_interval))
     (estimated, given) = texts
-    assert "the pressure-viscosity coefficient is estimated, and its range is not in the interval" in estimated[1]
+    assert (
+        "the pressure-viscosity coefficient is estimated, and the interval does not contain the range" in estimated[1]
+    )
     assert given[1] == ""
     assert "input (eyring_stress) " in estimated[0] and "input (eyring_stress) " in given[0]
 

@@ -298,7 +298,7 @@ def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhe
     assert f"from {least} to 0.01" in lines[0]
     page = study_report.study_page(made(f, WIDTH), {}, [best, *lines]).decode()
     assert re.search(r'<p class="answer">The mean friction.*Of 6 operating conditions.*variance', page, re.DOTALL)
-    assert "left out but for the difference" in page and "report.html has all" not in page
+    assert "only the difference of their effects" in page and "report.html has all" not in page
 
 
 def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_coefficient():
@@ -311,7 +311,7 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
     changes = {}
     for number, scene in enumerate(plan.scenes, 1):
         point = lubfric.friction(scene, 2.0)
-        assert "that of measured oils changes f by at most" in point.not_in_interval
+        assert "the range of measured oils, which changes f by at most" in point.not_in_interval
         (changes[number],) = (effect.change for effect in point.unmodelled_effects if effect.is_of_alpha)
     (line,) = (line for line in study_answer.answer_lines(lubfric.study(plan)) if "measured oils" in line)
     assert "At all points, by closed forms" in line

@@ -161,7 +161,7 @@ def test_a_law_states_the_errors_of_its_points_and_refuses_points_without_a_digi
 
     points = tuple(with_errors(point, 0.19) for point in curve.points)
     law = dataclasses.replace(curve, points=points).law()
-    assert "known within 40 %" in law.error_in_words and law.error_in_words in law.c.split("*/")[0]
+    assert "95 % intervals of up to 40 %" in law.error_in_words and law.error_in_words in law.c.split("*/")[0]
     points = (*points[:3], with_errors(points[3], 0.3), *points[4:])
     with pytest.raises(lubfric.InputError, match="numerical error of f at .* is 30 %"):
         dataclasses.replace(curve, points=points).law()

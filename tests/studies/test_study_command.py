@@ -613,7 +613,7 @@ def test_a_reason_that_many_points_fail_for_is_said_once(capsys):
         report(n + 1, 12, (n, 0), lubfric.InputError("no spacing" if n != 5 else "no load"))
     said = " ".join(capsys.readouterr().err.split())
     assert said.count("no spacing") == said.count("no load") == 1
-    assert said.count("failed for the reason of point 1 (") == 10
+    assert said.count("failed for the same reason as point 1 (") == 10
 
 
 def test_a_study_without_a_solved_point_has_a_report(tmp_path, capsys, monkeypatch):

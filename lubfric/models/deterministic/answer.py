@@ -72,7 +72,7 @@ UNSOLVED_CELLS = "shorter cells did not converge{}: the numerical error is twice
 WITHIN_WORK = " within the work of a point"
 MORE_WORK = "set a larger numerics.max_work"
 ENDED_CELLS = (
-    "shorter cells were not solved: by the changes of f so far they would take too much work, or leave the numerical "
+    "shorter cells were not solved: judging by the changes of f so far, they would take too much work, or leave the numerical "
     "error above numerics.tolerance"
 )
 SMALLER_PATCH = "give a smaller patch (contact.shape)"
@@ -84,8 +84,8 @@ TOO_MANY_CELLS = (
 ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
-# What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of
-# the asperity load.
+# What has the boundary friction f_b, by whether the shear stress of the lubricant is unlimited: where it has a limit, a
+# film at this limit is no part of the asperity load.
 RUBS = {
     True: "gaps below the boundary film, and film at its limiting stress",
     False: "gaps below the boundary film",
@@ -100,16 +100,16 @@ LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 FILTERED_MAP = "filter short waves out of the map (surface.s_filter; f changes too)"
 SMALLER_SOLVE_TOLERANCE = "set a smaller numerics.tolerance"
 
-# Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to
-# .006 the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at
-# .023, a gear flank, it gave -47 % for -30 %.
+# Relative change of f at rest, by the flow of an oil with another critical stress, above which this oil is solved in
+# motion too [-]. Up to .006 the shear stress of the solved moments alone gave the change of f within 7 % (needle
+# rollers, bearings, light contacts); at .023, on a gear flank, it gave -47 % instead of -30 %.
 FLOW_MATTERS = 0.01
 
 # Correction of f by the summits of the sample [-] above which a note states it whatever the sampling error is. A
 # convention: the usual model_tolerance.
 LARGE_CORRECTION = 0.05
 
-# The same, below which none does. A convention: the usual tolerance.
+# Correction of f by the summits of the sample [-] below which no note states it. A convention: the usual tolerance.
 SMALL_CORRECTION = 0.01
 
 

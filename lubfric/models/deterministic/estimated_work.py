@@ -56,9 +56,9 @@ LARGEST_CHANGE = -0.42
 CHANGE_BY_FILM = 0.53
 CHANGE_SPREAD = 1.4
 
-# The same at least where the film of the smooth contact is above Sq, over the square of the cell along x over the Hertz
-# half-width [-]: 56, 14, 3.5, .9 % at .75, .38, .19, .09; on a measured map f changed by 10 to 21, 3 to 45, 4 to 50, .6
-# to 1.4 % there.
+# The least such change where the film of the smooth contact is above Sq, over the square of the cell along x over the
+# Hertz half-width [-]: 56, 14, 3.5, .9 % at .75, .38, .19, .09; on a measured map f changed by 10 to 21, 3 to 45, 4 to
+# 50, .6 to 1.4 % there.
 CHANGE_OF_FILM = 1.0
 
 # Factor on that change where the heights are not smooth over a cell [-]: on those of the patches whose autocorrelation
@@ -81,8 +81,8 @@ ENOUGH_ALONE = 0.3
 # points.
 PIECES_OF_MORE_STRIPS = 3.0
 
-# The same where the heights are not smooth over a cell, whose changes scatter more [-]: 1 to 32, 5 in the geometric
-# mean of 8 points on exponential surfaces.
+# `PIECES_OF_MORE_STRIPS` where the heights are not smooth over a cell, and f scatters more [-]: 1 to 32, 5 in the
+# geometric mean of 8 points on exponential surfaces.
 PIECES_IF_NOT_SMOOTH = 5.0
 
 # Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9
@@ -92,8 +92,8 @@ PIECES_OF_RUBBED = 0.25
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice: it moves estimates alone.
 RUBBED_FILM = 0.25
 
-# The same of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it (.05,
-# .07), and one above it (.13). Chosen between them.
+# `RUBBED_FILM` of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it
+# (.05, .07), and one above it (.13). Chosen between them.
 RUBBED_FILM_OF_SHORT_STRIP = 0.1
 
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
@@ -102,11 +102,11 @@ OF_SLOPE = 0.5
 # Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].
 LAST_LEVEL_OF_ONE_STRIP = 0.2
 
-# The same where more strips are solved [-].
+# Part of the points that solve a piece on cells a quarter as long, where more strips are solved [-].
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
-# The same where the heights are not smooth over a cell, of any number of strips [-]: 6 of 7
-# random points on exponential surfaces.
+# This part where the heights are not smooth over a cell, for any number of strips [-]: 6 of 7 random points on
+# exponential surfaces.
 LAST_LEVEL_IF_NOT_SMOOTH = 0.85
 
 # Part of these that solve it on still shorter cells [-]: 3 of these 6.
@@ -125,8 +125,8 @@ SECONDS_OF_PATCH = 0.05
 AT_REST_ON_LONG_CELLS = 0.9
 
 # What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time of ten runs
-# of ``verification.campaigns.estimates``. A way by the sampling error that is expected of the strip was tried: 55 % of
-# the traction curves were within a factor of 2, for 82 % by the same way for all.
+# of ``verification.campaigns.estimates``. A travelled distance that follows from the expected sampling error of the
+# strip was tried: with it 55 % of the traction curves were within a factor of 2, with one distance for all 82 %.
 COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
 
 # Processor time of moving roughness on many cells over its counted work [-]. Fitted with `SMALL_ARRAYS` to 33 strips of
@@ -167,7 +167,7 @@ PICTURED_LENGTH = 10.0
 # Correlation lengths along y of such a picture, at least [-]. A choice, by looking at the figures.
 LEAST_PICTURED_LENGTH = 8.0
 
-# What is not solved takes nothing. By definition.
+# The estimate for a model that is not solved: no work. By definition.
 NO_WORK = WorkEstimate(strips=0, seconds=0.0, has_answer=False)
 
 

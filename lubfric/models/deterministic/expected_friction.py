@@ -17,7 +17,7 @@ OF_FLOW = tuple(f"lubricant.{law.key}" for law in FLOW_LAWS)
 # times it. The value measured, with a margin.
 REDISTRIBUTED = 2.0
 
-# Such a change over f, above which that hardness is solved [-]. A convention.
+# Expected change of f by another hardness, over f, above which f is solved with that hardness [-]. A convention.
 HARDNESS_MATTERS = 0.02
 
 # Expected asperity load over film load [-]: the first, times the full-load film over Sq and the pressure-viscosity

@@ -27,7 +27,7 @@ COLUMN_STEPS = 2.35
 STEPS_BY_COLUMNS = 0.29
 STEPS_BY_PRESSING = 0.1
 
-# Logarithm of the lambda ratio below which that begins [-]: Λ 1.6. Fitted.
+# Logarithm of the lambda ratio below which this pressing begins [-]: Λ 1.6. Fitted.
 STEPS_BY_PRESSING_BELOW = 0.5
 
 # Iterations of GMRES in such a step [-], at a pressure-viscosity coefficient times Hertz pressure of 1; times that to

@@ -19,11 +19,11 @@ from .strip import (
     expected_error_after,
 )
 
-# The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.ladder`).
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.ladder`).
 
 # Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`).
-# Half and twice change the interval by 0.02 %.
+# Half and twice this value change the interval by 0.02 %.
 LEAST_STRIP_ERROR = 2e-3
 
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
@@ -33,16 +33,16 @@ UNSOLVED_FACTOR = 2.0
 # [-]: measured 1.1 to 1.9 on two measured maps.
 FINER_WORK = 1.4
 
-# Work of a solve on shorter cells over the expected, at which it ends [-]: .55 to 1.2 where it converges on the same. A
-# choice.
+# Work of a solve on shorter cells over the expected work, at which the solve ends [-]: .55 to 1.2 where it converged on
+# these maps. A choice.
 MOST_OVER_EXPECTED = 2.5
 
-# Counted work [s] of shorter cells that is done even where the error will be above the tolerance: they make it smaller.
-# A choice between time and that error.
+# Counted work [s] of shorter cells that is done even where the error will remain above the tolerance: shorter cells
+# reduce it. A choice between time and that error.
 CHEAP_WORK = 15.0
 
 # Newton steps that a solve on cells half as long is expected to take [-], or twice those on the longer ones if these
-# are fewer: measured 11 to 24 on the same, 6 and 7 on a patch of 1 GPa.
+# are fewer: measured 11 to 24 on these maps, 6 and 7 on a patch of 1 GPa.
 STEPS_ON_FINER_CELLS = 16
 
 # Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in

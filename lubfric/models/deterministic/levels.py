@@ -60,22 +60,22 @@ from .strip_on_two_grids import (
 )
 from .time_and_place import mean_over_blocks
 
-# The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
-# solved: it moves by up to 3 %, within the sampling error that is stated with it.
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or
+# fewer strips are solved: it moves by up to 3 %, within the sampling error that is stated with it.
 
 # Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for
-# what is added to it. Half: twice the time. A choice: less takes more strips. Half and twice change f by up to 2.8 %,
-# its interval by up to 12 % and the work by up to 120 % (constants.csv).
+# what is added to it. Half: twice the time. A choice: a smaller value takes more strips. Half and twice this value
+# change f by up to 2.8 %, its interval by up to 12 % and the work by up to 120 % (constants.csv).
 DIFFERENCE_SHARE = 0.95
 
 # Bias of strips that balance the load each by itself, over (scatter of f between strips)² [-]: .5 to 1 % near the
-# lift-off speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
+# lift-off speed (docs/uncertainty.md). Half and twice this value change the interval by up to 1 %.
 BALANCED = 1.3
 
-# Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`). A choice: more may
-# solve strips in vain, less takes more rounds. Half and twice change f by up to 3.2 %, its interval by up to 9.3 % and
-# the work by up to 41 % (constants.csv).
+# Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`). A choice: a larger
+# value may solve strips in vain, a smaller one takes more rounds. Half and twice this value change f by up to 3.2 %,
+# its interval by up to 9.3 % and the work by up to 41 % (constants.csv).
 STRIPS_GROWTH = (4.0, 2.0)
 
 # Factor on the strips that an error needs, and least growth [-] (`strips_for_error`). A choice, as in `STRIPS_GROWTH`.
@@ -85,8 +85,8 @@ STRIPS_SPARE = (1.1, 1.2)
 # those.
 HALVED_WORK = 2.5
 
-# Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges. A choice:
-# more leaves less to the ends of ranges.
+# Part of the remaining work of a point that these cells may take [-]: the rest is for the ends of input ranges. A
+# choice: a larger value leaves less to the ends of ranges.
 PART_OF_WORK_LEFT = 0.5
 
 CORRECTED_BY_SUMMITS = (

@@ -24,11 +24,12 @@ from .flow import Stencil, derivatives
 from .problem import Problem
 from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
-# The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
-# (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.linear.`).
+# The comments state how results change with half and with twice the value of a constant, on the counted work of eight
+# films, light, heavy, soft and moving (`python -m verification.campaigns.newton_constants
+# lubfric.models.deterministic.linear.`).
 
-# Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice change the work by 1 %;
-# 0.03 fails at 1 GPa and 0.03 m/s.
+# Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice this value change the work
+# by 1 %; 0.03 fails at 1 GPa and 0.03 m/s.
 GMRES_RESIDUAL = 0.01
 
 # Residual of the linear system over its right side, at which GMRES ends at rest where rows are scaled [-]. A roller of
@@ -37,11 +38,11 @@ GMRES_RESIDUAL = 0.01
 SCALED_ACCURACY = 0.1
 
 # Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were
-# measured. Half changes nothing, twice takes 11 % more work, 66 % at 1 GPa.
+# measured. Half this value changes nothing, twice this value takes 11 % more work, 66 % at 1 GPa.
 HIGH_PRESSURE = 10.0
 
 # Diagonal of the scaled sparse part, below which a row is not scaled up further [-]: a guard against division by 0.
-# Half and twice change nothing.
+# Half and twice this value change nothing.
 SMALLEST_DIAGONAL = 1e-12
 
 # Coefficient of the sparse part over the diagonal of its row, below which the LU of a step in time that follows the
@@ -50,11 +51,11 @@ SMALLEST_DIAGONAL = 1e-12
 # 2 to 7 % fewer iterations of GMRES. At rest, where lubricant flows with U, 0.01 takes up to three times the steps.
 OMITTED_COEFFICIENT = 0.03
 
-# Iterations of GMRES, after which it begins anew [-]: a bound of its memory. Half and twice change nothing; some 10 are
-# usual.
+# Iterations of GMRES, after which it begins anew [-]: a bound of its memory. Half and twice this value change nothing;
+# some 10 are usual.
 MOST_KRYLOV = 40
 
-# Times that GMRES begins, at most [-]: a bound. Half and twice change nothing.
+# Times that GMRES begins, at most [-]: a bound. Half and twice this value change nothing.
 CYCLES = 3
 
 # Length of the two entries that a rotation of GMRES turns, at least [-]: an image of length 0 has no direction. A

@@ -39,25 +39,25 @@ from .result import DeterministicResult, assemble
 from .solve import solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, extrapolated_mass, gap_of, residuals
 
-# The effects of half and twice a constant are those named in `moving_strip`.
+# The comments state how results change with half and with twice the value of a constant, as in `moving_strip`.
 
-# Residual of a step (`residuals`), unless another is given [-]. Measured: with 0.2 instead f of a roller of 1 GPa is
+# Default tolerance of the residual of a step (`residuals`) [-]. Measured: with 0.2 instead f of a roller of 1 GPa is
 # the same to 1e-4.
 MOVING_STEP_RESIDUAL = 1e-3
 
-# LU factorisations of a step, at most [-]; a usual step takes 3 to 4. Half and twice change nothing.
+# LU factorisations of a step, at most [-]; a usual step takes 3 to 4. Half and twice this value change nothing.
 MOST_STEP_FACTORISATIONS = 160
 
 # Newton steps from one start, at most [-]. A choice: a bound, above what a step takes that converges.
 MOST_NEWTON_STEPS = 40
 
-# Newton steps from the moved state, at most, where the last step that began there was not solved [-]. Four contacts
-# with Λ of .2 to .7, of which each such step took some 50 in vain and 16 in parts, take 26, 20, 7 and 18 s with
-# `MOST_NEWTON_STEPS` each time and a start from the state as it was between them, and 16, 9, 5 and 9 s with this and
+# Newton steps from the moved state, at most, where the last step that began there failed [-]. In four contacts with Λ
+# of .2 to .7 each such step took some 50 Newton steps in vain, and 16 in parts. They take 26, 20, 7 and 18 s with
+# `MOST_NEWTON_STEPS` each time and a start from the unmoved state in between, and 16, 9, 5 and 9 s with this value and
 # `STEPS_IN_PARTS`.
 MOST_NEWTON_STEPS_AGAIN = 10
 
-# Steps that are begun in parts after one that had to be [-], before the moved state is tried again. With none these
+# Number of steps that begin in parts after one that had to [-], before the moved state is tried again. With 0 these
 # contacts take 21, 10, 5 and 9 s.
 STEPS_IN_PARTS = 4
 
@@ -70,22 +70,22 @@ EULER_STEPS = 4
 # factorisations.
 STEP_ORDERS = (3, 2, 1)
 
-# Distance over which the pressure is smoothed, to separate what goes with the roughness [half-widths]. Half takes 12 %
-# more time, twice 3 %; f moves by 0.2 %, within the residual of a step.
+# Distance over which the pressure is smoothed, to separate the part that moves with the roughness [half-widths]. Half
+# this value takes 12 % more time, twice 3 %; f moves by 0.2 %, within the residual of a step.
 SMOOTHED_HALF_WIDTHS = 0.4
 
-# Part of the last change of the pressure with the roughness that a step begins with [-]. With none a needle roller at
-# .05 m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %. Of sixteen random rolling
-# contacts all of it takes 1 % more, some with much sliding 20 to 30 %.
+# Part of the last change of the pressure that moves with the roughness, added at the start of a step [-]. With 0 a
+# needle roller at .05 m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %. Of sixteen
+# random rolling contacts all of it takes 1 % more, some with much sliding 20 to 30 %.
 EXTRAPOLATED = 0.5
 
-# That part where all roughness moves by the same cells (`SAME_CELLS`) [-]. A needle roller with a slip of 1 % at .05, 2
-# and 5 m/s takes 18, 11 and 5 % fewer Newton steps than with a half, ten random contacts with a slide-roll ratio of .05
-# 6 %; with one of .3, 1 %.
+# This part where all roughness moves by the same number of cells (`SAME_CELLS`) [-]. A needle roller with a slip of 1 %
+# at .05, 2 and 5 m/s takes 18, 11 and 5 % fewer Newton steps than with a half, ten random contacts with a slide-roll
+# ratio of .05 6 %; with one of .3, 1 %.
 EXTRAPOLATED_TOGETHER = 1.0
 
-# Cells by which roughness moves more or less in a step than the mean, at most, for that [-]. A convention: those of a
-# slide-roll ratio of .1.
+# Largest difference, in cells a step, between the motion of a rough body and the mean motion, up to which all roughness
+# counts as moving alike [-]. A convention: those of a slide-roll ratio of .1.
 SAME_CELLS = 0.05
 
 # Part of the largest pressure above which a cell counts in the mean gap that the start of a step keeps [-]. A choice:
@@ -97,10 +97,10 @@ PRESSED_PART = 0.1
 # 7, those of a needle roller 38 and 59 instead of 19 and 13.
 STEPS_FROM_REST = 2
 
-# Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at
-# unlike speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3.
-# With 0.1, 0.3, 0.5 a gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six other rolling
-# contacts 68, 58, 60 s; f moves by up to 0.6, 1.5 %.
+# Least part of a Newton step that is taken in a step in time, whatever limit the gaps of single cells set [-]. Where
+# two bodies move at unlike speeds, summits of both meet at its start, and single cells would limit seven of eight steps
+# to 0.1 to 0.3. With 0.1, 0.3, 0.5 a gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six
+# other rolling contacts 68, 58, 60 s; f moves by up to 0.6, 1.5 %.
 LEAST_PART_IN_MOTION = 0.3
 
 # Relative difference up to which the lubricant passes one cell in a step [-]. A convention, far above rounding.

@@ -37,8 +37,9 @@ from .strip import StripSolution, change_of_places, problem_of, solve_strip, wor
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 
-# The effects of half and twice a constant are those on a roller of 0.55 GPa whose roughness moves (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.moving`). Where f moves there, other moments count.
+# The comments state how results change with half and with twice the value of a constant, on a roller of 0.55 GPa whose
+# roughness moves (`python -m verification.campaigns.constants lubfric.models.deterministic.moving`). Where f moves
+# there, other moments count.
 
 # Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved
 # the asperity load ratio by 0.013 (verification/campaigns/moving_effort).
@@ -52,38 +53,38 @@ FACTORISATIONS_IN_A_STEP = 4.0
 # `FACTORISATIONS_IN_A_STEP`.
 KRYLOV_IN_A_STEP = 25.0
 
-# Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
-# compared up to there (verification/campaigns/moving_effort).
+# Film of the smooth contact over Sq [-], above which the waves of the film are small, and steps have to be tight. A
+# convention: loose steps were compared with tight ones up to this film (verification/campaigns/moving_effort).
 SMALL_WAVES = 3.0
 
 # Mean square height below which a body is smooth [m²]. A convention.
 SMALLEST_SQUARE = 1e-30
 
-# Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant
-# does. At this speed steps of the lubricant are twice as many as the roughness needs; `moving` has what slower
-# roughness would gain. A choice between time and the error by steps.
+# Speed of the roughness over U [-]. Where all roughness is slower, a step lasts until the fastest body has passed one
+# cell, otherwise until the lubricant has. At this speed steps of the lubricant are twice as many as the roughness
+# needs; `moving` has what slower roughness would gain. A choice between time and the error by steps.
 SLOW_ROUGHNESS = 0.5
 
-# Speed of the roughness over U [-]: where some is faster, it passes one cell in a step, and not more. A choice between
-# time and the error by steps.
+# Speed of the roughness over U [-]. Where a rough body is faster, a step lasts until this body has passed one cell. A
+# choice between time and the error by steps.
 FAST_ROUGHNESS = 2.0
 
 # Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip
 # [half-widths]. The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after
-# 10. Half and twice change the interval by 1 and 4 %; twice takes 11 % more time.
+# 10. Half and twice this value change the interval by 1 and 4 %; twice this value takes 11 % more time.
 COMPARED_WAY = 1.0
 
-# Distance that the lubricant travels in the moments of a continuation that count [half-widths]. Half and twice change
-# nothing where only the shear stress has a range.
+# Distance that the lubricant travels in the moments of a continuation that count [half-widths]. Half and twice this
+# value change nothing where only the shear stress has a range.
 CONTINUED_WAY = 0.4
 
-# Moments of a continuation that count, at least [-]. Half and twice change nothing where only the shear stress has a
-# range.
+# Moments of a continuation that count, at least [-]. Half and twice this value change nothing where only the shear
+# stress has a range.
 FEWEST_CONTINUED = 8
 
 # Distance that the roughness travels in the moments that count before the error of the mean is known first
-# [half-widths]: half of a block of time (`TIME_BLOCK`). A choice: less judges by too few moments, more
-# may be in vain.
+# [half-widths]: half of a block of time (`TIME_BLOCK`). A choice: a smaller value judges by too few moments, a larger
+# one may be in vain.
 PILOT_WAY = 1.5
 
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
@@ -94,14 +95,14 @@ MOMENTS_GROWTH = (1.25, 2.5)
 # of that of the complete strip in most of 30 random contacts of ``verification.campaigns.estimates``, 1.5 at most.
 FORECAST_STEPS = 10
 
-# Steps in time before them [-]: the first ones from rest take more. A choice, above `moving.STEPS_FROM_REST`.
+# Steps in time before these [-]: the first steps from rest take more work. A choice, above `moving.STEPS_FROM_REST`.
 STEPS_BEFORE = 3
 
-# Counted work [s] of the steps in time after which a forecast takes those that there are. A choice: a twelfth of
+# Counted work [s] of the steps in time after which a forecast uses the steps solved so far. A choice: a twelfth of
 # `MOST_WORK_OF_POINT`.
 ENOUGH_WORK = 10.0
 
-# Moments over those that the error needs [-]. A convention.
+# Factor on the number of moments that the error needs [-]. A convention.
 MOMENTS_SPARE = 1.1
 
 # Numbers of a strip that are kept at every moment; the counted work of its step is one.
@@ -490,7 +491,7 @@ def _note_of_motion(
     """Return what moved, how many steps of ``step`` [s] count, and f of the same surfaces at ``rest``, as text."""
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
     lower = sum(record.numbers["order"] < STEP_ORDERS[0] for record in records)
-    by_lower = f"; {lower} step{'s' if lower > 1 else ''} by lower order" if lower else ""
+    by_lower = f"; {lower} step{'s' if lower > 1 else ''} with a method of lower order" if lower else ""
     return (
         f"the roughness moves at {speeds} m/s: mean over {len(records) - discarded} steps of {worded(step, 's')}, "
         f"after {discarded} "

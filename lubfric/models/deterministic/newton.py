@@ -12,49 +12,54 @@ from .linear import CYCLES, GMRES_RESIDUAL, MOST_KRYLOV, Change, System
 from .problem import Problem
 from .state import Iterate, State, TimeHistory, admissible, evaluated, residuals, update_active_sets
 
-# The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
-# (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.newton.`).
+# The comments state how results change with half and with twice the value of a constant, on the counted work of eight
+# films, light, heavy, soft and moving (`python -m verification.campaigns.newton_constants
+# lubfric.models.deterministic.newton.`).
 
-# Part of its gap that a step leaves in every cell, at least [-]. Half changes nothing; twice takes 4 % less work, 22 %
-# less on a soft film.
+# Least part of the gap of a cell that a step leaves [-]. Half this value changes nothing; twice this value takes 4 %
+# less work, 22 % less on a soft film.
 KEEP = 0.2
 
-# Floors by which a cell may nevertheless sink below the floor in a step [-]: cells at the floor would stop all others.
-# Half takes 2 % less work (15 % less on a soft film), twice changes nothing.
+# Distance, over the smallest gap (`problem.FLOOR`), by which a cell may sink below the smallest gap in a step [-]:
+# otherwise cells at this gap would stop all others. Half this value takes 2 % less work (15 % less on a soft film),
+# twice this value changes nothing.
 MOST_SINKING = 3.0
 
-# Part of a Newton step that is taken, whatever the gap of a cell says [-]. Half and twice change the work by 1 %.
+# Least part of a Newton step that is taken, whatever limit the gaps of single cells set [-]. Half and twice this value
+# change the work by 1 %.
 LEAST_STEP_PART = 0.1
 
-# Halvings of a step, at most, while it is not accepted [-]: a bound. Half and twice change nothing.
+# Halvings of a step, at most, while it is not accepted [-]: a bound. Half and twice this value change nothing.
 STEP_HALVINGS = 10
 
-# Imbalance of mass [-] above which a step is judged by the change that the equations ask for: a heavily loaded film
-# finds its shape before its imbalance falls, and crawls in quarters of a step where that decides. With it 200 random
-# films at rest take 16 % less work, and 16 that move 3 % less. Half and twice change nothing.
+# Imbalance of mass [-] above which a step is judged by the change that the equations require next: a heavily loaded
+# film finds its shape before its imbalance falls, and advances by quarters of a step where the imbalance decides. With
+# this rule 200 random films at rest take 16 % less work, and 16 that move 3 % less. Half and twice this value change
+# nothing.
 FAR_IMBALANCE = 0.5
 
-# Factor by which the measure of a step may grow in it [-]. Halved, which asks the measure to halve, takes 91 % more work,
-# twice 10 % more.
+# Factor by which the measure of a step may grow in it [-]. Half of it, which requires the measure to halve, takes 91 %
+# more work, twice this value 10 % more.
 STEP_GROWTH = 1.05
 
-# The same in a step as short as `LEAST_STEP_PART`, and factor by which the imbalance of all cells may grow in any step
-# [-]: those that change their kind at rest are solved by another equation in the next. Half takes five times the work,
-# twice 3 % more.
+# This factor in a step as short as `LEAST_STEP_PART`, and the factor by which the imbalance of all cells may grow in
+# any step [-]: at rest, cells that change their kind are solved by another equation in the next step. Half this value
+# takes five times the work, twice 3 % more.
 SURGE = 2.0
 
-# Steps in which the residual has to fall [-]. Half and twice change nothing.
+# Number of steps within which the residual has to fall [-]. Half and twice this value change nothing.
 NEWTON_PATIENCE = 20
 
-# Residual over the least one before these steps, to which it has to fall [-]. Half changes nothing, twice takes 6 %
-# more work on a soft film.
+# Ratio of the residual to its least value before these steps, to which it has to fall [-]. Half this value changes
+# nothing, twice this value takes 6 % more work on a soft film.
 PROGRESS = 0.95
 
-# First step in time over dx/U [-]. Half and twice take 14 % less work on a soft film: it is not tuned to it.
+# First step in time over dx/U [-]. Half and twice take 14 % less work on a soft film: the value is not tuned to this
+# film.
 FIRST_TIME_STEP = 3.0
 
-# Factor of a step in time after one that was not solved [-]. Half takes 15 % less work on a soft film,
-# twice 26 % more.
+# Factor of a step in time after one that was not solved [-]. Half this value takes 15 % less work on a soft film, twice
+# 26 % more.
 TIME_STEP_SHRINKAGE = 0.25
 
 # Steps in time solved in a row, from which on they grow [-]: where the next one fails, its Newton steps are lost. With
@@ -67,28 +72,29 @@ WAIT = 3
 # Halved, so that they never grow, takes 39 % less work on a soft film, twice 24 % more.
 GROW = (2.0, 1.5)
 
-# Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film;
-# twice changes nothing.
+# Newton steps, up to which a step in time was easy [-]. Half this value takes 9 % less work on a soft film; twice this
+# value changes nothing.
 EASY_STEPS = 5
 
-# Step in time over dx/U, below which the steps in time have failed [-]: a bound. Half and twice change
+# Step in time over dx/U, below which the steps in time have failed [-]: a bound. Half and twice this value change
 # nothing.
 LEAST_TIME_STEP = 1e-3
 
-# Step in time over dx/U, above which the film is steady [-]: a bound. Half and twice change nothing.
+# Step in time over dx/U, above which the film is steady [-]: a bound. Half and twice this value change nothing.
 LAST_TIME_STEP = 1e5
 
-# Newton steps in a step in time, at most [-]. Half takes 27 % less work on a soft film, twice 55 % more.
+# Newton steps in a step in time, at most [-]. Half this value takes 27 % less work on a soft film, twice 55 % more.
 INNER = 8
 
-# Residual of a step in time, at most [-]. Half takes 13 % less work on a soft film, twice changes nothing.
+# Residual of a step in time, at most [-]. Half this value takes 13 % less work on a soft film, twice this value changes
+# nothing.
 MOST_STEP_RESIDUAL = 0.1
 
-# Residual of a step in time over the steady imbalance of mass [-]. Half takes 16 % less work
-# on a soft film; with twice it is not solved.
+# Residual of a step in time over the steady imbalance of mass [-]. Half this value takes 16 % less work on a soft film;
+# with twice it is not solved.
 IMBALANCE_PART = 0.6
 
-# Part of the tolerance of a solution to which steps in time are solved, at least [-]. Half and twice change
+# Part of the tolerance of a solution to which steps in time are solved, at least [-]. Half and twice this value change
 # nothing.
 STEP_TOLERANCE_PART = 1 / 3
 

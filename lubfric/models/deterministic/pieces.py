@@ -38,32 +38,34 @@ from .strip_on_two_grids import (
     surface_and_map_coarsening,
 )
 
-# The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.pieces`).
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.pieces`).
 
-# Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-]. Half takes 25 % more
-# time and moves f by 0.8 %, within the stated error; twice widens the interval by 4 %.
+# Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-]. Half this value takes
+# 25 % more time and moves f by 0.8 %, within the stated error; twice this value widens the interval by 4 %.
 PIECES_SAMPLING_SHARE = 0.7
 
-# Pieces, at most [-]. Half and twice change nothing.
+# Pieces, at most [-]. Half and twice this value change nothing.
 MOST_SOLVED_PIECES = 32
 
-# Counted work [s] of pieces beyond which no more are solved: a quarter of `MOST_WORK_OF_POINT`. Half and twice change
-# nothing.
+# Counted work [s] of pieces beyond which no more are solved: a quarter of `MOST_WORK_OF_POINT`. Half and twice this
+# value change nothing.
 PIECES_WORK = 30.0
 
-# LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
+# LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice this value change
+# nothing.
 FACTORISATIONS_OF_START = 100
 
-# Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
+# Length [correlation lengths] below which a strip serves as a piece. Half this value changes nothing, twice this value
+# changes f by -0.3 %.
 LENGTH_OF_SHORT_STRIP = 60.0
 
 # Length [correlation lengths] of the piece on the shortest cells, those of the last level: a third of `PIECE_LENGTH`.
-# Half and twice change nothing on these points, which do not need it.
+# Half and twice this value change nothing on these points, which do not need it.
 LENGTH_OF_LAST_PIECE = 14.0
 
 # Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error. A
-# choice: less takes more pieces.
+# choice: a smaller value takes more pieces.
 FIXED_FILM_RATIO = 2.0
 
 # The parts of the shear force of the film that shorter cells change.

@@ -34,22 +34,24 @@ FLOOR = 1e-9  # m: gap of touching cells, some molecules: a choice (`error_by_ga
 # The effects of half and twice the lengths of the grid are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.problem`).
 
-# Undeformed gap at the inlet end of the grid [Sq], at least. Half changes f by .5 %; twice by .2 %, for 42 % more time.
+# Undeformed gap at the inlet end of the grid [Sq], at least. Half this value changes f by .5 %; twice by .2 %, for 42 %
+# more time.
 ROUGH_INLET = 14.0
 
-# Undeformed gap at the outlet end of the grid [Sq], at least. Half and twice change f by .03 % at most.
+# Undeformed gap at the outlet end of the grid [Sq], at least. Half and twice this value change f by .03 % at most.
 ROUGH_OUTLET = 5.0
 
-# Hertz half-widths from the middle to the inlet end [-], at least. Half and twice change nothing there.
+# Hertz half-widths from the middle to the inlet end [-], at least. Half and twice this value change nothing there.
 HERTZ_INLET = 3.0
 
-# Hertz half-widths to the outlet end [-], at least. Half and twice change nothing.
+# Hertz half-widths to the outlet end [-], at least. Half and twice this value change nothing.
 HERTZ_OUTLET = 1.8
 
-# sqrt(2 R h) of the smooth film from the middle to the inlet end [-], at least. Half changes nothing, twice f by .04 %.
+# sqrt(2 R h) of the smooth film from the middle to the inlet end [-], at least. Half this value changes nothing, twice
+# this value changes f by .04 %.
 FILM_INLET = 1.5
 
-# sqrt(2 R h) to the outlet end [-], at least. Half and twice change nothing.
+# sqrt(2 R h) to the outlet end [-], at least. Half and twice this value change nothing.
 FILM_OUTLET = 0.8
 
 # Pressure-viscosity coefficient times Hertz pressure below which pressure thickens the lubricant little: no strip above

@@ -21,8 +21,8 @@ from ..shared import LIMIT_RANGE
 from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State
 
-# Pressure [Pa] below which no film without a limit of its own is taken to be at f_b p. A choice: below it the stress of
-# any film is far below f_b p of an asperity contact.
+# Pressure [Pa] below which the stress of a Newtonian film is not limited to f_b p. A choice: below it the stress of any
+# film is far below f_b p of an asperity contact.
 PRESSED = 50e6
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ..._base import FloatArray
 from ...oil import Lubricant, density_ratio, log_viscosity_ratio
 
-# Of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's. A choice, below the largest exponent
+# Largest ln(eta/eta0) [-]: beyond it the film is not distinguished from a solid. A choice, below the largest exponent
 # of double precision, 709.
 THICKEST = 300.0
 

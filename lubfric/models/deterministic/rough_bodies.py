@@ -11,10 +11,11 @@ from .moving import RoughBody
 from .summits import SummitControl, control_of
 
 # Strips over which the control of moving roughness is averaged, at most: its error is a seventh of their scatter. A
-# choice: more costs time, less leaves more scatter.
+# choice: a larger value costs time, a smaller one leaves more scatter.
 CONTROL_STRIPS = 48
 
-# Cells of all these strips together, at most: about a second of processor time. A choice: less leaves more scatter.
+# Cells of all these strips together, at most: about a second of processor time. A choice: a smaller value leaves more
+# scatter.
 CONTROL_CELLS = 4_000_000
 
 

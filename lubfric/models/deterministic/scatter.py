@@ -11,27 +11,28 @@ from ..shared import ControlVariate, StandardError, block_error
 from .strip_on_two_grids import StripOnTwoGrids
 from .time_and_place import TimeAndPlace
 
-# The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.scatter`).
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.scatter`).
 
 # Scatter of the deterministic f between strips over that of blocks [-], without a control variate. From the first
 # campaigns of strips, whose numbers are not kept; half and twice change nothing there.
 STRIP_OVER_BLOCKS = 1.3
 
-# Scatter between strips, over that of blocks, of the difference of f from the control [-]. From the same
-# campaigns; with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
-# (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
+# Scatter between strips, over that of blocks, of the difference of f from the control [-]. From the same campaigns;
+# with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
+# (docs/measurements.md, answers-seeds). Half this value narrows the interval by 32 %, twice this value takes twice the
+# time.
 DIFFERENCE_OVER_BLOCKS = 1.2
 
-# Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %,
-# twice takes a third more time.
+# Weight of the scatter of blocks, as a number of strips, where it is pooled with the scatter between strips [-]. Half
+# this value changes the interval by .4 %, twice this value takes a third more time.
 PRIOR = 3
 
 # Degrees of freedom of the scatter of blocks, at most [-]: blocks of one strip are not independent of each other. Half
-# takes 39 % more time, twice narrows the interval by 8 %.
+# this value takes 39 % more time, twice this value narrows the interval by 8 %.
 FREEDOM = 5
 
-# Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
+# Fewest strips whose scatter gives an error [-]: two degrees of freedom. A convention.
 STRIPS_FOR_SCATTER = 3
 
 

@@ -45,12 +45,12 @@ from .strip_on_two_grids import (
     surface_and_map_coarsening,
 )
 
-# The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.shorter_cells`).
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.shorter_cells`).
 
 # LU factorisations of a patch on shorter cells, at most [-]: those from a state nearby and from the dry contact. Of 128
 # such solves of random patches of `python -m verification.campaigns.estimates` one took more, in steps in time, of
-# which others took 150 to 500. A choice: more solves a few of them, for ten times the work.
+# which others took 150 to 500. A choice: a larger value solves a few of them, for ten times the work.
 FACTORISATIONS_OF_SHORTER_CELLS = 90
 
 # LU factorisations of a short strip on shorter cells, at most, all from the solution on longer ones [-]: 11 to 36 on
@@ -61,8 +61,8 @@ FACTORISATIONS_OF_LAST_LEVEL = 60
 # Part of the change of f on a piece of that length by which it may be off the mean over the surface [-]. A convention.
 ERROR_OF_SHORT_PIECE = 0.5
 
-# Part of the work that a point has left, which its pieces may take [-]: the rest is for the ends of input
-# ranges. Half and twice change nothing.
+# Part of the remaining work of a point that its pieces may take [-]: the rest is for the ends of input ranges. Half and
+# twice this value change nothing.
 PIECES_SHARE = 0.6
 
 # Relative error of f above which a short piece goes on to still shorter cells [-]: on a ground map of 78 µm they

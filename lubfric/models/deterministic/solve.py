@@ -18,23 +18,25 @@ from .problem import Problem, are_soft
 from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
 
-# The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
-# (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.solve.`).
+# The comments state how results change with half and with twice the value of a constant, on the counted work of eight
+# films, light, heavy, soft and moving (`python -m verification.campaigns.newton_constants
+# lubfric.models.deterministic.solve.`).
 
 # The largest residual of a solution, unless another is given [-] (`residuals`): a convention; strips have their own.
 SOLVE_RESIDUAL = 1e-5
 
-# LU factorisations from a state nearby, at most [-]: a bound. Half and twice change nothing.
+# LU factorisations from a state nearby, at most [-]: a bound. Half and twice this value change nothing.
 FACTORISATIONS_FROM_NEARBY = 40
 
-# LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up
-# to 27.
+# LU factorisations from the dry contact, at most [-]: a bound. Half and twice this value change nothing; a roller of 1
+# GPa took up to 27.
 FACTORISATIONS_FROM_DRY = 50
 
-# LU factorisations of steps in time, at most [-]: a bound. Half and twice change nothing.
+# LU factorisations of steps in time, at most [-]: a bound. Half and twice this value change nothing.
 FACTORISATIONS_IN_TIME = 500
 
-# LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
+# LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice this value change
+# nothing.
 MOST_FACTORISATIONS = 800
 
 # Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself. A
@@ -44,12 +46,12 @@ START_SPEEDS = (16.0, 256.0)
 # Residual of solutions on the way [-]. No film of the campaign needs it. A choice, as in the tolerance of a strip.
 RESIDUAL_ON_THE_WAY = 1e-3
 
-# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign needs it. A choice: more saves
-# steps, and may fail.
+# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign needs it. A choice: a larger
+# value saves steps, and may fail.
 SPEED_STEP_GROWTH = 1.5
 
-# The least step in ln(speed) [-]: a bound. No film of the campaign needs it. A choice: less costs time before a film
-# fails.
+# The least step in ln(speed) [-]: a bound. No film of the campaign needs it. A choice: a smaller value costs time
+# before a film fails.
 LEAST_SPEED_STEP = 0.05
 FILM_ADVICE = "try longer cells or a higher speed"
 
@@ -60,12 +62,12 @@ THIN_STRESS = 0.09
 # Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it. A choice: as `THIN_STRESS`.
 THIN_OFFSET = 2e6
 
-# Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice change the work by
+# Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice this value change the work by
 # 1 % at most.
 DRY_TOLERANCE = 1e-4
 
 # Distance behind the middle over sqrt(2 R h), from which on a start has ruptured [-]: a little behind where a rigid
-# film ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
+# film ruptures, 0.475. Half and twice this value change the work by 1 %, of one film by +31 and -13 %.
 START_RUPTURE = 0.55
 
 # Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`)
@@ -74,14 +76,14 @@ START_RUPTURE = 0.55
 # with a half as with all.
 LIFT = 0.5
 
-# Steps in which the residual has to fall from the dry contact of soft bodies [-]. Of a thin film it does not, from the
-# dry contact and from faster ones: a roller of E' 19 GPa and film/Sq .05 took 160 factorisations, of which 70 led
-# nowhere.
+# Number of steps within which the residual has to fall in a start from the dry contact of soft bodies [-]. With a thin
+# film it does not fall, neither from the dry contact nor from faster films: a roller of E' 19 GPa and film/Sq .05 took
+# 160 factorisations, of which 70 led nowhere.
 SOFT_PATIENCE = 8
 
 # Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would
-# flow in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge in 16 or 23 steps from some of them
-# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
+# flow in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge in 16 or 23 steps from some of these
+# starts and not at all from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
 # Parts of the expected film by which the dry contact is lifted where every other way has failed [-]. A bearing of 10 mm
@@ -93,9 +95,9 @@ LAST_LIFTS = (0.2, 2.0)
 # for that. Levels of a roller of 1 GPa with 0.011 and 0.023 take 16 and 10 Newton steps so, and 10 from sharp contacts.
 SHARP_LOAD_RATIO = 0.02
 
-# Residuals over those of the dry start, from which on an interpolated start is not taken [-]. A roller of 1 GPa at 1
-# m/s took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the dry contact plus the
-# change by the film (`_corrected_dry_start`).
+# Ratio of the residuals of an interpolated start to those of the dry start, above which the interpolated one is not
+# used [-]. A roller of 1 GPa at 1 m/s took 33 Newton steps from one whose residuals were some 20 times as large, and 14
+# from the dry contact plus the change by the film (`_corrected_dry_start`).
 WORSE = 2.0
 
 # Asperity load ratio [-], up to which the change by the film on longer cells is added to the dry contact of shorter
@@ -110,7 +112,7 @@ WET_LOAD_RATIO = 0.1
 FILM_PRESSURE_PART = 0.125
 
 # Part of a Newton step [-], below which a `_corrected_dry_start` is given up: the solution follows by steps that are
-# longer, or not at all (7 steps where it does, see `WET_LOAD_RATIO`). A choice: more gives up sooner.
+# longer, or not at all (7 steps where it does, see `WET_LOAD_RATIO`). A choice: a larger value gives up sooner.
 LEAST_CORRECTED_STEP = 0.3
 
 

@@ -26,21 +26,21 @@ CURVATURE = 1.0 / 3.0
 # (`flow.couette_flow`). Half: by definition of minmod there.
 MOST_EXTRAPOLATED = 0.5
 
-# Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
-# ruptures spares its neighbours, and one that ruptured in vain fills late. A roller of 1 GPa takes 2.9 Newton steps in
-# a step in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1, 2.4, 2.9, 4.4. At rest at 0.03 m/s a
-# grid of 251 x 240 cells takes 72 with 0, and 28 with 0.5.
+# Ratio of the suction of a fluid cell to the strongest suction of its eight neighbours [-], below which the cell does
+# not rupture: the rupture of a cell relieves its neighbours, and a cell that ruptured needlessly refills late. A roller
+# of 1 GPa takes 2.9 Newton steps in a step in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1,
+# 2.4, 2.9, 4.4. At rest at 0.03 m/s a grid of 251 x 240 cells takes 72 with 0, and 28 with 0.5.
 STRONG_SUCTION = 0.5
 
-# The same where the neighbour is upstream, in a steady film [-]: a cell that ruptures there takes from the inflow of the
+# This ratio where the neighbour is upstream, in a steady film [-]: a cell that ruptures there reduces the inflow of the
 # cells behind it, so their suction grows. With 0.5 a rupture moves downstream by one cell in a step. Six speeds of the
 # roller and 13 of the scene "paper" take a counted work of 47.5 and 23.1 s with 0.5, 41.3 and 19.6 with 0.25, 41.3 and
 # 18.1 with 0.1, 42.4 and 18.0 with 0. 38 random runs at rest take 6 % less with 0.1, at most 16 % more; of 14 random
 # strips one takes twice as much. Steps in time of the roller take 54.4, 55.1, 57.5, 55.9 s, so they keep 0.5.
 STRONG_SUCTION_UPSTREAM = 0.1
 
-# Suction of a touching cell over U times the floor over dx, below which it keeps touching [-]. A choice: with 0,
-# rounding opens a contact.
+# Suction of a touching cell over U FLOOR/dx, below which the cell remains in contact [-]. A choice: with 0, rounding
+# opens a contact.
 PULL = 0.01
 
 

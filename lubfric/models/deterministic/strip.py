@@ -22,33 +22,33 @@ from .solve import FACTORISATIONS_FROM_NEARBY, MOST_FACTORISATIONS, refined_star
 from .state import evaluated
 from .time_and_place import Places, TimeAndPlace
 
-# The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
-# verification.campaigns.constants lubfric.models.deterministic.strip.`).
+# The comments state how results change with half and with twice the value of a constant, on three points of the scene
+# "paper" (`python -m verification.campaigns.constants lubfric.models.deterministic.strip.`).
 
-# Tolerance of a strip's residuals [-]. A choice: less takes more steps. Half and twice change f by up to .3 % and the
-# work by up to 8 % (constants.csv).
+# Tolerance of a strip's residuals [-]. A choice: a smaller value takes more steps. Half and twice this value change f
+# by up to .3 % and the work by up to 8 % (constants.csv).
 STRIP_RESIDUAL = 3e-3
 
 # The `StripSolution.slope` of a strip where it is not known: none was looked for.
 UNKNOWN_SLOPE = math.nan
 
-# Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice change nothing.
+# Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice this value change nothing.
 LONGER_CELLS_RESIDUAL = 1e-2
 
 # Cells from which a strip is solved on longer ones first [-]. A choice: fewer cells converge from the dry contact.
 MANY_CELLS = 12_000
 
-# Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times
-# changes f by 3 %, for more strips are solved then. A choice: nearer to 1 the tolerance of a solve shows.
+# Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 changes f
+# by 3 %, because more strips are solved then. A choice: nearer to 1 the tolerance of a solve has an effect.
 SECOND_LOAD = 1.03
 
-# Ratios of successive changes from grid to grid between which they are taken to fall [-]. Half changes nothing, twice
-# the interval by .2 %.
+# Ratios of successive changes from grid to grid between which they are taken to fall [-]. Half this value changes
+# nothing, twice this value changes the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
-# The least of these ratios with which the changes of a patch go on, all of which is solved on every grid [-]. A choice:
-# with it the error covers f on the cells of the map in 143 of 146 solves of 109 random patches that end before these, at
-# tolerances of .5 to 4 %.
+# The least of these ratios with which the changes on a patch are continued, which is solved completely on every grid
+# [-]. A choice: with it the error covers f on the cells of the map in 143 of 146 solves of 109 random patches that end
+# before these, at tolerances of .5 to 4 %.
 LEAST_RATIO_OF_PATCH = 0.6
 
 # Ratio of successive changes from grid to grid of a single strip [-], below which the last may be small by chance. A
@@ -63,8 +63,8 @@ GROWING = 2.0
 # 0.9 µm of the built-in surface.
 UNKNOWN_RATIO = 0.6
 
-# Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01
-# %.
+# Columns of the coarser of two grids in a part of the strip that changes independently [-]. Half and twice this value
+# change the interval by .01 %.
 COLUMNS_OF_A_PLACE = 2
 
 

@@ -18,20 +18,20 @@ from .result import DeterministicResult
 from .rough_bodies import bodies_of, map_of_strip, summit_control
 from .strip import UNKNOWN_SLOPE, StripSolution, solve_strip
 
-# Cells in a correlation length, at least. A choice: fewer show no correlation. Half and twice change f by up to 1.3 %,
-# its interval by up to 6.4 % and the work by up to 590 % (constants.csv).
+# Cells in a correlation length, at least. A choice: fewer show no correlation. Half and twice this value change f by up
+# to 1.3 %, its interval by up to 6.4 % and the work by up to 590 % (constants.csv).
 PER_LENGTH = 2.0
 
-# Cells in the Hertz half-width along x, at least. A choice: fewer show no contact. Half and twice change f by up to 1.8
-# %, its interval by up to 28 % and the work by up to 270 % (constants.csv).
+# Cells in the Hertz half-width along x, at least. A choice: fewer show no contact. Half and twice this value change f
+# by up to 1.8 %, its interval by up to 28 % and the work by up to 270 % (constants.csv).
 PER_HALF_WIDTH = 1.0
 # Cells along one axis over those along the other [-], each in what they have to resolve, up to which a patch is solved
-# on shorter ones along it: beyond, the error of f, of second order, comes from the other axis. A choice: more solves
-# needless cells, less leaves an error that no change of f shows.
+# on shorter ones along it: beyond, the error of f, of second order, comes from the other axis. A choice: a larger value
+# solves needless cells, a smaller one leaves an error that no change of f shows.
 MUCH_SHORTER = 0.25
 
-# Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: less
-# takes longer, more leaves less to other errors.
+# Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends. A choice: a
+# smaller value takes longer, a larger one leaves less to other errors.
 MOVING_SAMPLE = 0.6
 
 # Cells in a correlation length along x, at least, where roughness moves (docs/tolerances.md).

@@ -20,11 +20,12 @@ from ...surface import Surface
 from .moving import RoughBody, travelling
 from .problem import Problem
 
-# Half-widths of the Hertz strip: the wavelength that keeps half of its height. A choice: longer waves are flattened,
+# Wavelength that keeps half of its height, in half-widths of the Hertz strip [-]. A choice: longer waves are flattened,
 # shorter ones pass under pressure (docs/design-notes.md has other controls).
 HALVED_WAVE = 1.0
 
-# Sq of the attenuated heights: summits count above it. A choice (docs/design-notes.md has other controls).
+# Height above which summits count, in Sq of the attenuated heights [-]. A choice (docs/design-notes.md has other
+# controls).
 THRESHOLD = 1.0
 
 # Strips below which its mean on the endless surface is not known well enough to be a control. A choice: its mean has

@@ -15,8 +15,8 @@ import numpy as np
 from ..shared import LEAST_FREEDOM, PLACE_BLOCK, SHARED_LENGTH, TIME_BLOCK, StandardError
 from .summits import SummitControl
 
-# Half-widths: the correlation length 1.5 b of friction over time, without what the control explains. A choice, a little
-# less than that.
+# Correlation length of friction over time without the part that the control explains, in half-widths of the Hertz strip
+# [-]. A choice, a little less than the 1.5 half-widths of friction itself.
 TIME_LENGTH = 1.3
 
 

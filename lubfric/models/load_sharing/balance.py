@@ -22,8 +22,8 @@ SAFE_FILM = 2.0
 # Bounds of ln(F_H/F_C) [-]: film shares down to 4e-18, contact shares to 1e-13. A choice, near rounding.
 BOUNDS = (-40.0, 30.0)
 
-# Bound of ln(F_H/F_C) of a film that arrives: it is none if it carries less and leaves the gap empty. A choice, far
-# below the error of f.
+# Bound of ln(F_H/F_C) with a given arriving film: a film that carries less and leaves the gap empty counts as no film.
+# A choice, far below the error of f.
 EMPTY_LOG_RATIO = math.log(1e-4)
 
 # First step of ln(F_H/F_C) from a guess. Half and twice as much take 6 and 15 % longer (`python -m
@@ -36,11 +36,12 @@ NEXT_STEP = 0.7
 # Steps of Newton's method, at most. A choice: a bound.
 MOST_NEWTON_ITERATIONS = 30
 
-# Longest step of Newton's method in ln(F_H/F_C). A choice: more may overshoot, less takes more steps.
+# Longest step of Newton's method in ln(F_H/F_C). A choice: a larger value may overshoot, a smaller one takes more
+# steps.
 LONGEST_NEWTON_STEP = 1.0
 
-# Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only. A choice: less takes more steps here, more
-# takes more of the balance.
+# Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only. A choice: a smaller value takes more steps
+# here, a larger one takes more of the balance.
 LAST_NEWTON_STEP = 1e-3
 
 # Part of the load on the film, at most, at which the root is looked for without a start. Not measured: a start only.
@@ -49,8 +50,8 @@ MOST_FILM_SHARE = 0.9
 # Rounds, each with tighter tolerances, at most. A choice: a bound.
 BALANCE_ROUNDS = 6
 
-# Distance in ln(F_H/F_C) from the balance up to which a response is its own. A choice: more uses a response of another
-# load.
+# Distance in ln(F_H/F_C) from the balance up to which a stored response is used for it. A choice: a larger value uses a
+# response of another load.
 OWN_RESPONSE = 0.3
 
 # Rigid film of the total load over Sq below which the film carries less than the last digit of the load: at 1e-12 m/s

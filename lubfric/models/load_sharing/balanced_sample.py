@@ -39,27 +39,28 @@ from .response import Response, loads_at, with_contact_area_scaled
 from .scatter import Scatter, scatter_of
 from .undetected import hidden_contact, undetected_contact
 
-# Change of ln(F_H/F_C) that cells may make and be corrected for to first order. A choice: more corrects more to first
-# order alone, less solves again.
+# Change of ln(F_H/F_C) that cells may make and be corrected for to first order. A choice: a larger value corrects more
+# to first order alone, a smaller one solves again.
 MOST_CORRECTED_LOG_RATIO = 0.5
 
 # Change of gap or film over the mean gap that is to first order, at most. A choice, as in `MOST_CORRECTED_LOG_RATIO`.
 MOST_CORRECTED_GAP = 0.2
 
-# Clearance [Sq] below which asperities may be lost to the cells. Half and twice change nothing on the points of `python
-# -m verification.campaigns.constants`.
+# Clearance [Sq] below which long cells may miss asperities. Half and twice this value change nothing on the points of
+# `python -m verification.campaigns.constants`.
 LARGE_CLEARANCE = 1.0
 
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off. A
-# choice: more costs time, fewer are too far from the points.
+# choice: more of them costs time, fewer are too far from the points.
 REFERENCES = (0.05, 0.4, 1.6)
 
 # Film of the total load [Sq] from which it clears the summits (4.5 Sq) whatever heat takes of it: a point there has no
-# reference point. A choice. Half and twice change f by less than .01 % and the work by up to 11 % less (constants.csv).
+# reference point. A choice. Half and twice this value change f by less than .01 % and the work by up to 11 % less
+# (constants.csv).
 CLEAR_OF_SUMMITS = 10.0
 
-# Distance in ln F_C from a reference point up to which its effect of the cells may serve. A choice: more saves solves,
-# less errs less.
+# Distance in ln F_C from a reference point up to which its effect of the cells may serve. A choice: a larger value
+# saves solves, a smaller one errs less.
 NEAR_LOAD = 0.25
 
 # Slide-roll ratio of the reference point [-], whatever that of the point is. Film and contact depend on it little. A
@@ -67,8 +68,8 @@ NEAR_LOAD = 0.25
 REFERENCE_RATIO = 0.1
 
 # Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells
-# serves [-]. A choice: a tenth of the tolerance. Half and twice change f by less than .01 % and the work by up to 7 %
-# (constants.csv).
+# serves [-]. A choice: a tenth of the tolerance. Half and twice this value change f by less than .01 % and the work by
+# up to 7 % (constants.csv).
 REFERENCED = 0.1
 
 

@@ -42,8 +42,8 @@ FEWEST_PIECES = 3
 # Pieces, at most: 504 correlation lengths. Not measured: it bounds the work, and the error that is left is reported.
 MOST_COMPARED_PIECES = 12
 
-# Cells of a piece, at most, where a coarser one would do: memory and time. A choice. Half and twice change f by less
-# than .1 % and the work by up to 6 % less (constants.csv).
+# Cells of a piece, at most, where a coarser one would do: memory and time. A choice. Half and twice this value change f
+# by less than .1 % and the work by up to 6 % less (constants.csv).
 MOST_PIECE_CELLS = 300_000
 
 # Part of the sampling tolerance that the scatter between pieces may take. A choice: the error of the pieces is added to

@@ -372,7 +372,7 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
         notes.append(f"more than the requested {percent(tolerance)}")
     if has_too_few_contacts(balanced.scatter.effective_contacts, error, tolerance):
         notes.append(
-            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, "
-            f"fewer than {FEW_CONTACTS:g}), so the interval may be too narrow"
+            f"few asperity contacts carry the load (effective number {balanced.scatter.effective_contacts:.2g}, below "
+            f"{FEW_CONTACTS:g}), so the interval may be too narrow"
         )
     return tuple(notes)

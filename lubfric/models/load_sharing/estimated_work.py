@@ -28,8 +28,9 @@ CELL_SECONDS = 1.0e-7
 # film fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
 TIMES_BY_FLATTENING = 0.17
 
-# The same where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77 points on
-# exponential surfaces: 74 % within a factor of 3, and nearly all if it were known how often their cells are halved.
+# `TIMES_BY_FLATTENING` where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77
+# points on exponential surfaces: 74 % within a factor of 3, and nearly all if it were known how often their cells are
+# halved.
 TIMES_BY_FLATTENING_IF_ROUGH = 0.39
 
 # Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
@@ -66,13 +67,13 @@ PATCH_SECONDS = 0.03
 # Processor time [s] of each cell of such a map.
 MAP_SECONDS = 4e-8
 
-# Processor time [s] of what else a point on strips takes: .009 to .03 s there.
+# Processor time [s] of all other work of a point on strips: .009 to .03 s there.
 POINT_SECONDS = 0.012
 
 # Processor time [s] of the films of a point without heat.
 FILM_SECONDS = 0.015
 
-# Factor on that with heat.
+# Factor on this time with heat [-].
 HEAT_TIME_RATIO = 5.0
 
 # Cells in a correlation length along x, at most, until which cells are halved in the mean where the heights are not
@@ -85,7 +86,7 @@ ROUGH_CELLS_OF_LENGTH = 18.0
 ROUGH_FLATTENING = 2.4
 ROUGH_BY_FLATTENING = 0.16
 
-# Standard deviation of the number of halvings, and the largest [-]. Fitted, and seen.
+# Standard deviation of the number of halvings (fitted), and their largest number (observed) [-].
 HALVINGS_SPREAD = 0.98
 MOST_HALVINGS = 3
 
@@ -107,7 +108,7 @@ SCATTER = 1.8
 # Film [Sq] at which that has fallen to 1/e, because the film carries the load everywhere. Fitted as `SCATTER`.
 SEPARATED = 2.5
 
-# The same between bodies that flatten by less than Sq, whose highest summits touch below a thicker film: the
+# `SEPARATED` between bodies that flatten by less than Sq, whose highest summits touch below a thicker film: the
 # deterministic model solves 16, 24, 1 strips at 3.3, 3.7, 4.5, load sharing in curves of those campaigns 9 to 64 at 4.5
 # and 1 at 5.5.
 SEPARATED_IF_ROUND = 4.0

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 FEWEST_BLOCKS = 4
 
 # Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these. A
-# choice: more widens more intervals.
+# choice: a larger value widens more intervals.
 BLOCKS_FOR_SCALE = 14
 
 # Factor on the scale that fewer blocks show. Not measured: that scale is known to 1/sqrt(2 (n - 1)), 40 % with four.

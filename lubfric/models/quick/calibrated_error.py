@@ -23,7 +23,7 @@ OUTSIDE = (
     "the quick model is not calibrated for such contacts, so its model-form error is increased, at most three times"
 )
 
-# The same where numerics.model = 'auto' chose this model.
+# This consequence where numerics.model = 'auto' chose the quick model.
 OUTSIDE_OF_CHOSEN = (
     "the cases on which the quick model is calibrated end there; its model-form error, which the interval of f "
     "contains, is increased for this, at most three times"
@@ -38,7 +38,7 @@ BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibra
 WIDENED = "use f with its model-form error, which includes this increase"
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width. A
-# choice: less reports more.
+# choice: a smaller value reports more.
 NEGLIGIBLE_DISTANCE = 0.01
 
 # Factor on the bounds far outside the range of the campaign. A choice: nothing was measured there.

@@ -40,24 +40,24 @@ CELLS_AT_REST = (2.5, 2.0)
 # choice between error and time.
 CELLS_IN_MOTION = (2.0, 1.25)
 
-# Cells along x in the place of the first of these where f depends on the boundary film, because a film that long cells
-# make too thin changes f most there: of 11 such cases cells twice as short along x explain half of the error, along y
-# less. A step in time takes 1.5 times as long, and there are 1.5 times as many. Measured by
-# `verification.campaigns.calibration`; a choice between error and time.
+# Cells in a correlation length along x, in place of the first of `CELLS_IN_MOTION`, where f depends on the boundary
+# film, because a film that long cells make too thin changes f most there: of 11 such cases cells twice as short along x
+# explain half of the error, along y less. A step in time takes 1.5 times as long, and there are 1.5 times as many.
+# Measured by `verification.campaigns.calibration`; a choice between error and time.
 CELLS_OF_THIN_FILM = 3.0
 
-# Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width
-# where f depends on the film is 21 instead of 18 %, with .4 more; on the contacts of
-# `verification.campaigns.calibration`.
+# Change of f at rest by the boundary film, above which f counts as dependent on this film
+# (`LongCellsInMotion.by_film`): with .2 the half-width where f depends on the film is 21 instead of 18 %, with .4 more;
+# on the contacts of `verification.campaigns.calibration`.
 THIN_BY_FILM = 0.05
 
 # Cells in a correlation length along x and along y, and along x in the half-width, of the solved cases that move
 # (verification/campaigns/calibration/case.py).
 CELLS_OF_REFERENCES = (4.0, 2.5)
 
-# Distance of f at rest from f_b, over f_b, below which f hangs the less on the boundary film the nearer it is [-]: with
-# ten times as much the half-width where it does is 20 instead of 18 %, with none contacts whose asperities carry the
-# load take twice as long; on the contacts of `verification.campaigns.calibration`.
+# Distance of f at rest from f_b, over f_b, below which f depends less on the boundary film the nearer it is to f_b [-]:
+# with ten times as much the half-width where it does is 20 instead of 18 %, with none contacts whose asperities carry
+# the load take twice as long; on the contacts of `verification.campaigns.calibration`.
 NEAR_AT_REST = 0.03
 
 # Effort in the place of `TIGHT`: steps end at ten times its residual, which goes into the next step. f of four rollers
@@ -72,11 +72,11 @@ LOOSER_EFFORT = replace(TIGHT, residual=1e-3, carries_imbalance=True, linear=0.1
 LONG_CELLS_OF_HALF_WIDTH = 2.0
 
 # ln of f on cells twice as long, at most, that a feature takes as it is: beyond it, and where they have no solution,
-# the change says only that it is large. A choice: more lets single cases decide the fit.
+# the change says only that it is large. A choice: a larger value lets single cases decide the fit.
 MOST_BY_CELLS = 0.5
 
 # Change of ln f on cells twice as long, at least, that a feature takes as it is: below, the solver's tolerance is as
-# large. A choice: less lets the solver's error decide the fit.
+# large. A choice: a smaller value lets the solver's error decide the fit.
 LEAST_BY_CELLS = 0.01
 
 # Change of ln f on cells twice as long at which the feature is 0. A convention.
@@ -89,27 +89,27 @@ ROUNDING = 1e-9
 # Sliding part of f, at least, over which a change of f is taken. A choice, against a division by 0.
 LEAST_SLIDING = 1e-9
 
-# Change of f by the boundary film, from half to twice its thickness, that counts at most. A choice: more lets single
-# cases decide the fit.
+# Change of f by the boundary film, from half to twice its thickness, that counts at most. A choice: a larger value lets
+# single cases decide the fit.
 MOST_BY_FILM = 4.0
 
 # Change below which the cells of the boundary film are few and show little. Chosen with the features, by the
 # likelihood.
 LITTLE_BY_FILM = 0.1
 
-# Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it. A choice: less
-# lets the solver's error decide the fit.
+# Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it. A choice: a
+# smaller value lets the solver's error decide the fit.
 LEAST_BELOW = 0.02
 
 # Distance of the sliding part of f from f_b, over f_b, from which on it says nothing more in rolling. Chosen with the
 # features, by the likelihood.
 NEAR_FRICTION = 0.3
 
-# What is added to it, so that its ln is finite. A choice: less lets the solver's error decide the fit.
+# What is added to it, so that its ln is finite. A choice: a smaller value lets the solver's error decide the fit.
 LEAST_NEAR = 0.01
 
 # Part of f by the gradient of the pressure over the sliding part that counts at most: f may be a small difference. A
-# choice: more lets single cases decide the fit.
+# choice: a larger value lets single cases decide the fit.
 MOST_ROLLING = 20.0
 
 # Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by

@@ -321,13 +321,13 @@ class QuickModel(Model):
             return f"{in_place}: the surfaces are smooth"
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
         return (
-            f"quick model (numerics.model): the deterministic model on {strips} with cells longer than its own (long "
+            f"quick model (numerics.model): the deterministic model on {strips} with cells longer than usual (long "
             "cells), and an error calibrated on solved cases"
         )
 
     def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
         return (
-            "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its own "
+            "quick model (the deterministic model on long cells, its error calibrated on solved cases); on its usual "
             "cells the deterministic model would take too long"
         )
 

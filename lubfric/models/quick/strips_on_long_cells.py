@@ -51,28 +51,28 @@ from .long_cells import (
 MOST_STRIPS = 4
 
 # Standard error of f by the sample that strips are solved for, relative, at least: a smaller one takes more time than
-# the error by the cells is worth. A choice: less takes more strips.
+# the error by the cells is worth. A choice: a smaller value takes more strips.
 LEAST_SAMPLING_ERROR = 0.03
 
 # Standard error of f that strips are solved for, over the half-width of the bounds of f by the cells [-]: with
-# Student's t it widens the interval by a tenth. A choice: less takes more strips.
+# Student's t it widens the interval by a tenth. A choice: a smaller value takes more strips.
 SAMPLING_OVER_BOUNDS = 0.2
 
 # Standard error of f that strips are solved for, over the half-width of the bounds, on cells for thin films [-], where
 # a moment takes twice as long and the bounds are half as wide: with Student's t it widens the interval by four tenths.
-# A choice: less takes more strips.
+# A choice: a smaller value takes more strips.
 SAMPLING_OVER_NARROW_BOUNDS = 0.4
 
-# Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges. A
-# choice: more leaves less to them.
+# Part of the remaining work of a point that one more strip may take [-]: the rest is for the ends of input ranges. A
+# choice: a larger value leaves less to these ends.
 PART_OF_WORK = 0.25
 
 # numerics.model_tolerance below which "auto" does not try this model: the bounds are those of kinds of contacts, and a
-# point would be solved twice for the few whose bounds are narrower. A choice: less solves more points twice.
+# point would be solved twice for the few whose bounds are narrower. A choice: a smaller value solves more points twice.
 LEAST_TOLERANCE = 0.1
 
 # Part of f_b by which the stress of asperities exceeds that of the film, at least, where a bias of f is one of the
-# asperity load. Where both are alike, it is one of the film. A choice: less divides by differences near 0.
+# asperity load. Where both are alike, it is one of the film. A choice: a smaller value divides by differences near 0.
 LEAST_CONTRAST = 0.05
 
 NARROWER = "set numerics.model = 'deterministic' to reduce the error of f; 'lubfric info' estimates the cost"

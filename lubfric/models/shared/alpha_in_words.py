@@ -11,8 +11,8 @@ from .violation import numbers_in_words
 
 # What the change is before there is a result. A convention.
 UPPER_BOUND = (
-    "by closed forms over all asperity load ratios that the result may have; the change at the solved ratio, which the "
-    "report states, is often a small part of it"
+    "estimated with closed forms for all asperity load ratios that the result may have; the report states the change "
+    "at the solved ratio, which is often much smaller"
 )
 
 
@@ -33,7 +33,7 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
     others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
     return (
         "The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. "
-        f"{where}{others}, by closed forms, that of measured oils changes f by {largest}; {GIVE_ALPHA}."
+        f"{where}{others}, by closed forms, the range of measured oils changes f by {largest}; {GIVE_ALPHA}."
     )
 
 
@@ -45,7 +45,7 @@ def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]
         return ""
     return (
         "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the "
-        f"fitted parameters; by closed forms, that of measured oils changes f by {at_most_in_words(largest)}; give "
+        f"fitted parameters; by closed forms, the range of measured oils changes f by {at_most_in_words(largest)}; give "
         "lubricant.pressure_viscosity_coefficient"
     )
 
@@ -57,7 +57,7 @@ def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
     if not largest:
         return ""
     return (
-        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: that of "
+        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: the range of "
         f"measured oils changes f by {at_most_in_words(largest)}, {UPPER_BOUND}; {GIVE_ALPHA}"
     )
 
@@ -72,9 +72,9 @@ def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffe
     peak = worded(peak_hertz_pressure(scene), "Pa")
     return (
         f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
-        f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} it "
-        f"changes f by {at_most_in_words(largest)}: {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient, from a "
-        "data sheet or a measurement, to remove it, or [value, low, high] to have the change solved and in the interval"
+        f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} this range "
+        f"changes f by {at_most_in_words(largest)}, {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient from a "
+        "data sheet or a measurement, or as [value, low, high], whose effect is then solved and in the interval"
     )
 
 
@@ -85,8 +85,8 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
     if not largest:
         return ""
     return (
-        "the pressure-viscosity coefficient is estimated, and its range is not in the interval (that of measured "
-        f"oils changes f by {at_most_in_words(largest)})"
+        "the pressure-viscosity coefficient is estimated, and the interval does not contain the range of measured oils, "
+        f"which changes f by {at_most_in_words(largest)}"
     )
 
 

@@ -35,7 +35,8 @@ INERTIA = 0.1
 # Slide-roll ratio beyond which the surfaces move against one another. It follows from u1 u2 < 0.
 OPPOSED = 2.0
 
-# Part by which a ratio may exceed that because speeds of a table are rounded [-]. A choice: four digits leave less.
+# Part by which a ratio may exceed `OPPOSED` because speeds of a table are rounded [-]. A choice: four digits leave
+# less.
 ROUNDED_SPEEDS = 1e-3
 
 # Density of an oil [kg/m³], where none is given: that of a mineral oil at 30 °C (oils.toml).
@@ -51,8 +52,8 @@ BARUS_LIMIT = 3e8
 # Pressure [Pa] above which a viscosity law is extrapolated, of the laws that have one.
 OF_VISCOSITY_LAW = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}
 
-# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice:
-# less warns of more films.
+# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %. A choice: a
+# smaller value warns of more films.
 THICK_FILM = 0.1
 
 # Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning,

@@ -36,19 +36,19 @@ from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS, LEAST_FREEDOM, PLACE_B
 from .violation import Assumption, Violation
 from .wording import percent
 
-# Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress. A choice:
-# more takes longer.
+# Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress. A choice: a
+# larger value takes longer.
 STRIP_NODES = 201
 
 # Half-width of the Hertz strip over R from which a parabola for the circle is off: by b²/(4 R²) = 0.25 % of the height.
-# A choice: less warns of more contacts.
+# A choice: a smaller value warns of more contacts.
 WIDE_STRIP = 0.1
 
-# Half-width of the Hertz strip over R from which a half-space means nothing. Not measured: a convention.
+# Half-width of the Hertz strip over R above which the half-space model is meaningless. Not measured: a convention.
 WIDEST_STRIP = 0.5
 
 # Rms slope from which slopes are not small: the contact is solved for infinitesimal ones, which errs by the square, 25
-# %. A choice: less warns of more surfaces.
+# %. A choice: a smaller value warns of more surfaces.
 STEEP = 0.5
 
 # Rms slope of no real surface: heights or spacing are in a wrong unit. Not measured: a convention.

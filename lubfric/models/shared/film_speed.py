@@ -11,8 +11,8 @@ from ...scene import Scene
 # of 1e-6 sees, because these exponents vary slowly.
 NUDGE = 1e-3
 
-# Relative accuracy of the speed that gives a film: of a start or of a reference point, which needs no more. A choice:
-# less takes longer.
+# Relative accuracy of the speed that gives a film: of a start or of a reference point, which needs no more. A choice: a
+# smaller value takes longer.
 SPEED_ACCURACY = 1e-6
 
 

@@ -48,7 +48,7 @@ GAP_IN_CONTACT = 1.6
 LEAST_SCALED_SHARE = 1e-6
 
 # Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has fallen to 4 % of
-# its largest there. A choice: less cuts the film off.
+# its largest there. A choice: a smaller value cuts the film off.
 UPSTREAM = 4.0
 
 # Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder. It

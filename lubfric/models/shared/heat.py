@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from ...contact import ContactState
 
 
-# Relative change of the film by the heat of its inlet that is none: rounding. Half and twice as much change nothing.
+# Relative change of the film by the heat of its inlet that counts as none: rounding. Half and twice as much change
+# nothing.
 NEGLIGIBLE_HEAT = 1e-9
 # Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
 TYPICAL = (343.15, 0.035)

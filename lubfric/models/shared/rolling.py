@@ -31,7 +31,7 @@ MOST_OF_RESISTANCE = 0.15
 RESISTANCE_BY_LOAD = 0.5
 
 # Share of the load on the film, at least, at which its resistance is solved: below it, the resistance is too small to
-# matter beside friction. A choice: less meets films that do not converge.
+# matter beside friction. A choice: a smaller value meets films that do not converge.
 LEAST_FILM_SHARE = 1e-3
 
 # Relative tolerance of the film. A choice, far below the error of this resistance.

@@ -50,33 +50,33 @@ SHARED_LENGTH = 1 / math.sqrt(math.pi)
 # judged as `MOST_BLOCKS`.
 STRIPS_SAFETY = 1.3
 
-# Factor by which a sample grows, at least: fewer new strips tell little that is new. Half and twice change nothing
-# (constants.csv).
+# Factor by which a sample grows, at least: fewer new strips tell little that is new. Half and twice this value change
+# nothing (constants.csv).
 LEAST_GROWTH = 1.5
 
 # Sampling error over its target, above which it misses the target [-]: a standard error of a few strips is itself not
-# known to 5 %. A choice: less states what is no difference.
+# known to 5 %. A choice: a smaller value states what is no difference.
 SAMPLING_ERROR_MISSED = 1.05
 
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
-# guide further. A choice: more may solve strips in vain, less takes more rounds. Half and twice change f by up to 1.3 %
-# and the work by up to 13 % (constants.csv).
+# guide further. A choice: a larger value may solve strips in vain, a smaller one takes more rounds. Half and twice this
+# value change f by up to 1.3 % and the work by up to 13 % (constants.csv).
 SAMPLE_GROWTH = 4.0, 8.0
 
 # Confidence of the intervals. A convention (GUM, as in docs/uncertainty.md).
 CONFIDENCE = 0.95
 
-# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96. A choice: less
-# widens intervals, by 4 % here. Half and twice change f by less than .01 % and the work by less than 1 %
-# (constants.csv).
+# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96. A choice: a smaller
+# value widens intervals, by 4 % here. Half and twice this value change f by less than .01 % and the work by less than 1
+# % (constants.csv).
 FREEDOM_NOT_COUNTED = 30
 
 # Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N
 # (docs/measurements.md, `python -m verification sampling`).
 FEW_CONTACTS = 10.0
 
-# Part of the sampling tolerance below which an error needs no more asperity contacts. Half and twice change nothing on
-# the points of the campaign above.
+# Part of the sampling tolerance below which an error needs no more asperity contacts. Half and twice this value change
+# nothing on the points of the campaign above.
 SAMPLING_MATTERS = 0.25
 
 

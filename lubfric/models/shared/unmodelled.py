@@ -21,7 +21,7 @@ from .guessed_friction import FrictionParts, Guess, guessed_parts, parts_togethe
 from .heat import TYPICAL
 from .wording import percent
 
-# Film over that of a full inlet, of the example of a starved one. A convention, not measured.
+# Film thickness in the example of a starved inlet, over that of a flooded inlet [-]. A convention, not measured.
 STARVED_EXAMPLE = 0.7
 
 # Sq after running-in over that before, of the example. Not measured: `lubfric.run_in` computes it for a scene.
@@ -59,18 +59,18 @@ LEAST_ASPERITY_PART = 0.1
 
 # What to do about the pressure-viscosity coefficients of measured oils where that of the scene is an estimate.
 GIVE_ALPHA = (
-    "give lubricant.pressure_viscosity_coefficient = [value, low, high] to have the change solved and in the interval"
+    "give lubricant.pressure_viscosity_coefficient = [value, low, high], whose effect is solved and in the interval"
 )
 
-# The same of a run in time, whose interval contains no such range.
+# This recommendation for a run in time, whose interval contains no such range.
 GIVE_ALPHA_IN_TIME = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this change"
 
-# Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
-# of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
-# A margin is added.
+# Powers of the estimated s between which the s of a result lies, and 0: the built-in contact, by three models, has
+# powers of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on
+# asperities. A margin is added.
 POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
 
-# Times the guess of mu between which that of a result may lie. A choice: a factor of 2.
+# Factors on the estimated mu between which the mu of a result may lie [-]. A choice: a factor of 2.
 SHEARS = (0.5, 1.0, 2.0)
 
 
