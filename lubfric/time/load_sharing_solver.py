@@ -29,8 +29,8 @@ LEAST_APPROACH = 1e-9  # [-] of a contact from first touch, over its gap: less i
 LEAST_LOG_LOAD = 1e-5
 MOST_TRIALS = 16  # number of film and contact solves in one step, at most
 PLAIN_TRIALS = 4  # of them, after which two loads that enclose the balance are closed in
-# Part of the distance of two loads that enclose the balance by which a trial stays away from each [-]. A choice: more
-# takes more trials where the gap jumps near the middle, less where it jumps near an end.
+# Part of the distance of two loads that enclose the balance by which a trial stays away from each [-]. A choice: a
+# larger value takes more trials where the gap jumps near the middle, a smaller one where it jumps near an end.
 KEPT_AWAY = 0.25
 # Travel of a spring of constant load over the mean gap [-]: its load changes by a thousandth of the relative change of
 # the gap. A choice: it moves the trials alone.

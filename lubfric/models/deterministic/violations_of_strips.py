@@ -32,14 +32,14 @@ FILM_OF_STRIPS = {
 }
 
 # Share of the lubricant out of touching cells above which a note reports how f depends on the assumed gap between them.
-# A choice: less reports more points.
+# A choice: a smaller value reports more points.
 MOST_GIVEN_OFF = 0.1
 
 # The cause of the error by those cells.
 BY_GAP = "the assumed gap of 1 nm between touching cells"
 
-# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice:
-# less warns of more points.
+# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it. A choice: a
+# smaller value warns of more points.
 CUT = 0.1
 
 
@@ -77,7 +77,7 @@ def _violations_by_boundary_film(scene: Scene, film: float) -> Iterator[Violatio
             value=1e9 * film,
             limit=1e9 * BOUNDARY_FILM,
             unit="nm",
-            consequence="gaps below the boundary film rub with f_b, and their load counts as asperity load; the "
+            consequence="on gaps below the boundary film the shear stress is f_b p, and their load counts as asperity load; the "
             "boundary film is not "
             f"given, and the model-form error of f contains half and twice {1e9 * BOUNDARY_FILM:g} nm",
             recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured",
