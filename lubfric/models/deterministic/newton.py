@@ -38,8 +38,8 @@ STEP_HALVINGS = 10
 # nothing.
 FAR_IMBALANCE = 0.5
 
-# Factor by which the measure of a step may grow in it [-]. Half of it, which requires the measure to halve, takes 91 %
-# more work, twice this value 10 % more.
+# Factor by which the measure of a step may grow in it [-]. Halved, which requires the measure to halve in each step, it
+# takes 91 % more work, twice this value 10 % more.
 STEP_GROWTH = 1.05
 
 # This factor in a step as short as `LEAST_STEP_PART`, and the factor by which the imbalance of all cells may grow in

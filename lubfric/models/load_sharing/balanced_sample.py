@@ -51,7 +51,7 @@ MOST_CORRECTED_GAP = 0.2
 LARGE_CLEARANCE = 1.0
 
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off. A
-# choice: more of them of them costs time, fewer are too far from the points.
+# choice: more of them costs time, fewer are too far from the points.
 REFERENCES = (0.05, 0.4, 1.6)
 
 # Film of the total load [Sq] from which it clears the summits (4.5 Sq) whatever heat takes of it: a point there has no
