@@ -17,6 +17,7 @@ from ..studies import (
     best,
     best_mean,
     design_keys,
+    is_condition,
     name_of,
     operating_keys,
     points_are_designs,
@@ -36,6 +37,9 @@ GIVEN_SPEEDS = ("u1", "u2")
 
 # Numbers by which points are compared that are designs, as sentences name them.
 SYMBOLS_OF_POINTS = {"power_loss": "The power loss", "coefficient": "f"}
+
+# Why a point of a sample with conditions of its own is no best design.
+CONDITIONS_DIFFER = "The points differ in {} too, so that none of them is the best design."
 
 RULE = (
     "Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil and the position of an "
@@ -83,7 +87,9 @@ def best_lines(result: StudyResult) -> list[str]:
     if why := why_not_compared(result.plan):
         return [sentence(why)]
     if points_are_designs(result.plan):
-        return [line for quantity in SYMBOLS_OF_POINTS for line in _best_points(result, quantity)]
+        lines = [line for quantity in SYMBOLS_OF_POINTS for line in _best_points(result, quantity)]
+        conditions = " and ".join(name_of(key) for key in design_keys(result.plan) if is_condition(key))
+        return [*lines, CONDITIONS_DIFFER.format(conditions)] if lines and conditions else lines
     lines = []
     quantity = "power_loss" if result.paired else "coefficient"
     mean = best_mean(result, quantity)
@@ -110,7 +116,8 @@ def _best_points(result: StudyResult, quantity: str) -> list[str]:
     """Return which points, each of them a design, have the lowest ``quantity``, in sentences."""
     return [
         f"{SYMBOLS_OF_POINTS[quantity]} is lowest at point {one.row}"
-        f"{_where(one)}: {_number(one, COLUMNS[quantity].unit)}, with {values_in_words(one.design)}. {_rival_points(one)}"
+        f"{_where(one)}: {_number(one, COLUMNS[quantity].unit)}, with {values_in_words(one.design)}. "
+        f"{_rival_points(one)}"
         for one in best(result, quantity)
     ]
 

@@ -15,6 +15,7 @@ from ..studies import (
     StudyResult,
     columns_of_study,
     design_keys,
+    is_scattered,
     label,
     main_effects,
     mean_over_cycle,
@@ -44,6 +45,10 @@ IN_PURE_ROLLING = (
     "Nothing slides there: f is the rolling part of the force on one surface. The power loss comes from the rolling "
     "resistance of both surfaces; in their sum, the pressure on the flanks of moving roughness, which is part of f, "
     "cancels"
+)
+# What the intervals of the effects omit where the points are a sample of designs.
+OMITS_FINITE_SAMPLE = (
+    "The ranges do not include the error by the finite number of points: another sample of as many has other parts."
 )
 # What to do where the heat of the film is omitted.
 GIVE_TEMPERATURE = (
@@ -119,9 +124,10 @@ def _effects_in_words(result: StudyResult, effects: dict[str, MainEffect], symbo
         if np.isfinite([*effects.values()][0].interval).all()
         else ""
     )
+    omitted = f" {OMITS_FINITE_SAMPLE}" if within and any(is_scattered(result, key) for key in effects) else ""
     return (
         f"Part of the variance of ln {symbol} that each input alone explains{within}: {'; '.join(words)}. The remaining "
-        f"part comes from combinations of inputs.{_why_not_known(result, effects, symbol)}"
+        f"part comes from combinations of inputs.{omitted}{_why_not_known(result, effects, symbol)}"
     )
 
 

@@ -4,7 +4,7 @@ from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .best import COMPARED_DISTANCE, CORRELATION_OF_DESIGNS, BestDesign, best, best_mean
 from .choose import AUTO_SPEEDS, each_once, expected_speeds, span
 from .codec import classes_of, decode, encode, fits
-from .conditions import design_keys, operating_keys, points_are_designs, why_not_compared
+from .conditions import design_keys, is_condition, operating_keys, points_are_designs, why_not_compared
 from .curve import CurveResult, columns_of_curve, csv_bytes
 from .curve_axes import draw_curve
 from .distributions import Normal

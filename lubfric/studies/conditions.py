@@ -36,7 +36,7 @@ def points_are_designs(plan: Any) -> bool:
     its own, as a sample of them: it varies a key that no cycle does, and does not say where a point lies."""
     if not plan.paired or not COORDINATES.keys().isdisjoint(plan.coords):
         return False
-    return any(not _is_condition(key) and key not in KEYS_OF_CYCLE for key in _of_table(plan))
+    return any(not is_condition(key) and key not in KEYS_OF_CYCLE for key in _of_table(plan))
 
 
 def _of_table(plan: Any) -> set[str]:
@@ -52,10 +52,10 @@ def operating_keys(plan: Any) -> tuple[str, ...]:
     varied = _varied(plan)
     of_table = _of_table(plan)
     if points_are_designs(plan):
-        return tuple(key for key in varied if key not in of_table and _is_condition(key))
-    if not any(_is_condition(key) for key in of_table):
+        return tuple(key for key in varied if key not in of_table and is_condition(key))
+    if not any(is_condition(key) for key in of_table):
         of_table = set()
-    return tuple(key for key in varied if _is_condition(key) or key in of_table)
+    return tuple(key for key in varied if is_condition(key) or key in of_table)
 
 
 def design_keys(plan: Any) -> tuple[str, ...]:
@@ -108,5 +108,6 @@ def _varied(plan: Any) -> list[str]:
     return [*varied, SPEED] if plan.chooses_speeds else varied
 
 
-def _is_condition(key: str) -> bool:
+def is_condition(key: str) -> bool:
+    """Return whether a ``key`` that a study varies is a condition of operation or of the computation, not of design."""
     return key in OPERATING_KEYS or key.startswith((OPERATING_SECTION, *COMPUTATION))

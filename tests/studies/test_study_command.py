@@ -218,6 +218,7 @@ def test_shares_of_a_table_of_points_are_those_of_its_columns():
     effects = studies.main_effects(result)
     assert list(effects) == ["bodies.load", "speed"]
     assert [effect.share for effect in effects.values()] == pytest.approx([0.8, 0.2])
+    assert "finite number of points" not in " ".join(study_answer.answer_lines(result))
 
 
 def drawn_designs(repeated):
@@ -247,7 +248,14 @@ def test_points_that_are_designs_are_compared_as_a_whole():
     result = drawn_designs(0)
     (one,) = result.best("power_loss")
     assert one.row == int(result["power_loss"].argmin()) + 1 and set(one.design) == {"bodies.load", "surface.sq"}
-    assert "mean power loss" not in " ".join(study_answer.answer_lines(result))
+    said = " ".join(study_answer.answer_lines(result))
+    assert "mean power loss" not in said
+    assert said.count("The points differ in total load too, so that none of them is the best design.") == 1
+    assert said.count("do not include the error by the finite number of points") == 1
+    smooth = lubfric.plan_study(SMALL, points={"surface.sq": [5e-8, 1e-7], "load": [4.0, 4.0], "speed": [0.1, 0.1]})
+    columns = {name: values[:2] for name, values in result.columns.items()}
+    assert "is lowest at point" in (text := " ".join(study_answer.answer_lines(made_study(smooth, columns))))
+    assert "best design" not in text
     with pytest.raises(lubfric.InputError, match="result.best"):
         result.best_mean("power_loss")
     with pytest.raises(lubfric.InputError, match="no law over other inputs is offered"):
