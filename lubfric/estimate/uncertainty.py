@@ -11,6 +11,7 @@ import numpy as np
 
 from .._base import Renamed
 from ..models.shared import (
+    NEAR_ZERO,
     REDUCED_BY_DETERMINISTIC,
     REDUCED_BY_TOLERANCE,
     SAMPLING_ERROR_MISSED,
@@ -302,7 +303,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
                 continue
             note = part.note_if_unknown if math.isnan(value) else ""
             stated.append(f"{self.part_in_words(name)} {words[name]}{note}")
-        of_what = "errors of f itself, which is near 0: " if self.is_near_zero else ""
+        of_what = f"errors of f itself, which is below {NEAR_ZERO:g}: " if self.is_near_zero else ""
         return "; ".join((f"{of_what}{', '.join(stated)}", *self.cut))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from .._base import FloatArray
 from ..estimate import uncertainty_of_row
 from ..models.shared import (
+    NEAR_ZERO,
     SAMPLING_ERROR,
     Assumption,
     half_width_of_error,
@@ -19,6 +20,7 @@ from ..models.shared import (
     sentence,
     standard_error_in_words,
 )
+from ..quantities import counted
 from ..scene import Numerics, Scene
 
 # Why an error above its tolerance is no warning.
@@ -39,6 +41,8 @@ class MissedTolerance:
     limits : the smallest and the largest limit of these rows; None: ``limit`` alone
     assumption : on this error, an `Assumption`
     notes : at how many of the points it is a note, because it is usual for the model or accepted with it
+    uncounted : number of rows where the error is above its limit and does not count relative to f, as f is near 0 or
+        that of rolling resistance; warnings and notes state it there
     """
 
     error: str
@@ -50,10 +54,14 @@ class MissedTolerance:
     limits: tuple[float, float] | None = None
     assumption: str = ""
     notes: int = 0
+    uncounted: int = 0
 
     def in_words(self, total: int, place: Callable[[int], str]) -> str:
         """Return the miss in a sentence; ``total``: number of solved points; ``place``: gives where a row lies, as "at
         point 3"."""
+        return f"{self._of_counted(total, place)}{f' {self._of_uncounted()}' if self.uncounted else ''}"
+
+    def _of_counted(self, total: int, place: Callable[[int], str]) -> str:
         value, limit = percent_beside(self.value, self.limit)
         if total == 1:
             return f"The {self.error} is {value}, above {limit} ({self.tolerance})."
@@ -73,6 +81,10 @@ class MissedTolerance:
             f"{place(self.worst)}: {value}, above {limit} ({self.tolerance}).{notes}"
         )
 
+    def _of_uncounted(self) -> str:
+        more = counted(self.uncounted, "more points")
+        return f"Warnings and notes state it at {more}, where f is below {NEAR_ZERO:g} or that of rolling resistance."
+
 
 def missed_tolerances(
     columns: Mapping[str, np.ndarray], scenes: Sequence[Scene], usual: FloatArray | float = math.nan
@@ -89,10 +101,13 @@ def missed_tolerances(
     for checked in _checked_errors(columns, [scene.numerics for scene in scenes]):
         error = checked.error
         counts = checked.counts
+        is_above = error > checked.limit
+        uncounted = 0
         if counts is None:
             is_relative = np.array([not is_near_zero(*pair) for pair in zip(f.tolist(), error.tolist())], dtype=bool)
-            counts = (error > checked.limit) & is_relative & slides
+            counts = is_above & is_relative & slides
         if checked.assumption == Assumption.MODEL_FORM_ERROR:
+            uncounted = int((is_above & ~counts).sum())
             counts = counts & np.isnan(usual)
         points = np.flatnonzero(counts)
         if not points.size:
@@ -104,6 +119,7 @@ def missed_tolerances(
             assumption=checked.assumption,
             points=tuple(points.tolist()),
             worst=worst,
+            uncounted=uncounted,
             value=float(error[worst]),
             limit=float(checked.limit[worst]),
             limits=(float(checked.limit[points].min()), float(checked.limit[points].max())),

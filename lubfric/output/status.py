@@ -6,7 +6,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..models.shared import ERROR_OF_ORDER_OF_MAGNITUDE, Assumption, Violation, is_near_zero, percent, sentence
+from ..models.shared import (
+    ERROR_OF_ORDER_OF_MAGNITUDE,
+    NEAR_ZERO,
+    Assumption,
+    Violation,
+    is_near_zero,
+    percent,
+    sentence,
+)
 from ..quantities import counted
 from ..scene import Numerics, Scene
 from ..studies import CurveResult, StudyResult, columns_of_curve, columns_of_study
@@ -244,7 +252,7 @@ def _largest_in_words(f: np.ndarray, errors: np.ndarray) -> str:
     near = np.array([is_near_zero(*pair) for pair in zip(f.tolist(), errors.tolist())])
     words = [percent(float(errors[~near].max()))] if not near.all() else []
     if near.any():
-        words.append(f"{float((errors * np.abs(f))[near].max()):.2g} in f itself where f is near 0")
+        words.append(f"{float((errors * np.abs(f))[near].max()):.2g} in f itself where f is below {NEAR_ZERO:g}")
     return ", and up to ".join(words)
 
 

@@ -17,7 +17,7 @@ from scipy.special import stdtrit
 
 import lubfric
 from lubfric.estimate import Uncertainty, roughness_to_quote
-from lubfric.models.shared import checks
+from lubfric.models.shared import checks, violations_by_model_error
 from lubfric.output import main, orders_of_magnitude
 from lubfric.output.history_table import evenly_by_change
 from lubfric.output.inputs_as_given import inputs_as_given
@@ -303,6 +303,20 @@ def test_no_relative_error_of_an_f_near_zero_misses_a_tolerance():
     }
     (missed,) = missed_tolerances(columns, [scene, scene])
     assert missed.points == (1,) and missed.value == pytest.approx(2.228 * 0.05, rel=1e-3)
+
+
+def test_status_and_warnings_count_the_same_model_form_errors():
+    """Of points with f of 0.05, of 0.0047 with an error above it, and of 0.0047 with a smaller one."""
+    scene = lubfric.load_scene("paper")
+    f = np.array([0.05, 0.05, 4.7e-3, 4.7e-3, 0.05])
+    error = np.array([0.2, 0.3, 1.2, 0.9, 0.01])
+    tolerance = scene.numerics.model_tolerance
+    pairs = zip(error.tolist(), f.tolist())
+    made = [violations_by_model_error(e, tolerance=tolerance, f=each, has_interval=True) for e, each in pairs]
+    (missed,) = missed_tolerances({"coefficient": f, "model_error": error}, [scene] * 5)
+    assert len(missed.points) + missed.uncounted == sum(bool([*each]) for each in made) == 4
+    text = missed.in_words(5, lambda row: f"at point {row + 1}")
+    assert text.startswith("At 3 of 5 points") and "state it at 1 more point, where f is below 0.005" in text
 
 
 def test_status_and_notes_count_the_same_sampling_errors():

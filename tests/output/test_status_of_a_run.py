@@ -91,4 +91,4 @@ def test_an_error_of_next_to_no_friction_is_stated_in_f(run):
     errors = {"model_error_low": np.full(count, 0.3), "model_error_high": np.r_[np.full(count - 1, 0.3), 50.0]}
     f = {"coefficient": np.r_[np.full(count - 1, 0.1), 1e-3]}
     (text,) = missed_by_run(RUN, replace(run, violations=(), columns=run.columns | errors | f))
-    assert "up to 30 %, and up to 0.05 in f itself where f is near 0" in text
+    assert "up to 30 %, and up to 0.05 in f itself where f is below 0.005" in text

@@ -61,16 +61,16 @@ def test_errors_of_an_f_near_zero_are_in_f_itself():
         area_needed=1.0,
     )
     assert known.budget_in_words["model-form"] == "-0.0025 to +0.0002"
-    assert known.budget_in_words["numerical"] == "2e-06" and "near 0" in known.text
+    assert known.budget_in_words["numerical"] == "2e-06" and "f itself, which is below 0.005" in known.text
     usual = replace(known, model=0.9, model_sides=(0.2, 0.9))
-    assert usual.budget_in_words["model-form"] == "-20 to +90 %" and "near 0" not in usual.text
+    assert usual.budget_in_words["model-form"] == "-20 to +90 %" and "below 0.005" not in usual.text
 
 
 def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
     (relative,) = violations_by_model_error(0.2, tolerance=0.05, f=0.04, has_interval=True)
     assert "is 20 %, above 5 %" in relative.text and relative.recommendation == "use f with its interval"
     (itself,) = violations_by_model_error(88.0, tolerance=0.05, f=-1e-5, has_interval=False)
-    assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
+    assert "of f below 0.005, in f itself, is 0.00088, above 5e-07." in itself.text
     assert not itself.recommendation  # f has no interval
     assert not list(violations_by_model_error(0.04, tolerance=0.05, f=1e-5, has_interval=True))
 

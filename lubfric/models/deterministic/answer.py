@@ -16,6 +16,7 @@ from ..load_sharing import largest_film_load_ratio
 from ..model_answer import AnswerErrors, AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
+    NEAR_ZERO,
     PLACE_BLOCK,
     SAMPLING_ERROR,
     SAMPLING_ERROR_MISSED,
@@ -441,7 +442,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
     half_widths = [half_width_of_error(each, error.freedom) for each in (error.value, tolerance)]
     f = levels.numbers["coefficient"]
     if is_near_zero(f, half_widths[0]):
-        return (f"{SAMPLING_ERROR} is {abs(f) * half_widths[0]:.2g} in f itself, which is near 0",)
+        return (f"{SAMPLING_ERROR} is {abs(f) * half_widths[0]:.2g} in f itself, which is below {NEAR_ZERO:g}",)
     (stated, target) = percent_beside(*half_widths)
     note = f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})"
     needed = _area_needed(prepared, error, levels)

@@ -168,6 +168,7 @@ from .violation import (
 from .wording import (
     LEAST_STATED_PART,
     LEAST_STATED_RISE,
+    NEAR_ZERO,
     is_near_zero,
     percent,
     percent_beside,

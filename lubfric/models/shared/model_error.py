@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from .sides import Sides, added_sides
 from .violation import Assumption, Violation
-from .wording import is_near_zero, percent
+from .wording import NEAR_ZERO, is_near_zero, percent
 
 MODEL_ERROR = "model-form error of f"
-MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
+MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} below {NEAR_ZERO:g}, in f itself,"
 BY_HEAT = "heat (half of its effect counts as error)"
 REDUCED_BY_DETERMINISTIC = "set numerics.model = 'deterministic' to reduce it"
 REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
