@@ -79,6 +79,21 @@ def test_a_starved_contact_needs_the_strips_of_its_smallest_film():
     assert widest.speed == pytest.approx(2.6) and 61 / 5 < widest.strips <= 61
 
 
+def test_a_plateau_honed_ring_needs_the_strips_of_its_grooves():
+    """The run takes 18 strips, because grooves are long and the plateaus alone touch; 2 were estimated, and a tenth of
+    the time."""
+    ring = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.02, "width": 0.2576, "load": 1950.0, "e_prime": 155e9, "hardness": 2.4e9},
+        lubricant={"viscosity": 4.6e-3, "pressure_viscosity_coefficient": 1.4e-8, "inlet_length": 3e-4},
+        motion={"entrainment_speed": 6.75, "slide_roll_ratio": 2},
+        surface={"sq": None, "sk": 6e-7, "spk": 1.5e-7, "svk": 1.5e-6, "correlation_length": 1.5e-5},
+        contact={"shape": (256, 256), "spacing": 3e-6},
+        numerics={"sampling_tolerance": 0.05},
+    )
+    plan = Transient(1e-3, outputs=2, speed=Harmonic(amplitude=6.75, frequency=50.0, phase=2.0944))
+    assert 18 / 3 < estimated(plan, ring).widest.strips < 3 * 18
+
+
 def test_a_run_by_load_sharing_is_estimated_with_the_strips_of_load_sharing():
     """By "auto", whose last model takes one strip of moving roughness, a sixth of the cells of the run was
     estimated."""
