@@ -54,16 +54,7 @@ def result_of(
     loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors.of_numbers | {"power_loss": loss.error}
-    sampling = answer.errors.sampling_error.value
-    is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
-    of_answer = [each for each in answer.violations if each.assumption != Assumption.LONG_SAMPLE or not is_sampled_well]
-    has_interval = math.isfinite(uncertainty.interval[0])
-    by_model = _violations_by_model_error(scene, answer, has_interval=has_interval)
-    violations = (
-        *of_answer,
-        *(beside_larger_part(each, uncertainty) for each in by_model),
-        *violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation),
-    )
+    violations = tuple(_violations(scene, answer, uncertainty))
     why = [choice.why] if choice.why else []
     decision = replace(answer.decision, model=choice.model.name, notes=(*answer.decision.notes, *why))
     friction_parts = (numbers["boundary_force"] / scene.bodies.load, f)
@@ -106,6 +97,20 @@ def result_of(
         compared_fields=compared_fields,
         details=details,
     )
+
+
+def _violations(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Iterator[Violation]:
+    """Yield the violations of the ``answer``, and those by the errors of f. A short sample whose sampling error is small
+    is none."""
+    sampling = answer.errors.sampling_error.value
+    is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
+    for violation in answer.violations:
+        if violation.assumption != Assumption.LONG_SAMPLE or not is_sampled_well:
+            yield violation
+    has_interval = math.isfinite(uncertainty.interval[0])
+    for violation in _violations_by_model_error(scene, answer, has_interval=has_interval):
+        yield beside_larger_part(violation, uncertainty)
+    yield from violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation)
 
 
 def _violations_by_model_error(scene: Scene, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:
