@@ -57,9 +57,8 @@ def friction(
         solved by load sharing, else as False; "fine": a part of the surface is solved again, with some 40 cells across
         the Hertz strip, or with native ones where these are longer; moving roughness has the cells of its solve
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
-    workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
-        several. The numbers do not depend on it. A script that requests more than one needs ``if __name__ ==
-        "__main__":``
+    workers : processes that solve strips of the surface and ends of input ranges in parallel, where there are several.
+        The numbers do not depend on it. A script that requests more than one needs ``if __name__ == "__main__":``
 
     Returns a `FrictionResult`.
 

@@ -43,8 +43,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     Attributes
     ----------
     report : of the solve
-    uncertainty : of the coefficient: from solvers and grids, because a finite surface represents all of it, and from
-        the model (`Uncertainty`, docs/uncertainty.md)
+    uncertainty : of the coefficient, by solvers and grids, by the finite sample of the surface, and by the model
+        (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
     decision : which model answered, what was solved, and why; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
@@ -56,7 +56,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     methods : names of the published methods used; ``cite()`` gives the publications
     inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
-    compared_fields : those of the cheapest model on the same strips, where it was solved beside the answer
+    compared_fields : those of the cheapest model on the same strips, where it was solved as well
     details : what each model keeps of its solve, by its name
     """
 

@@ -123,8 +123,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     """The uncertainty of the friction coefficient of one operating point. docs/uncertainty.md says what is not
     included.
 
-    A number that is not known is NaN, and ``text`` says why. ``line_scatter`` is between lines at different places on
-    the surface.
+    A number that is not known is NaN, and ``text`` says why. ``line_scatter`` is the scatter between lines at different
+    places on the surface.
 
     Attributes
     ----------

@@ -67,11 +67,13 @@ def solve_ehl(
     viscosity, pressure_viscosity_coefficient : eta0 at ambient pressure [Pa s]; alpha [1/Pa]
     viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
-    inlet_length, inlet_film : None: fully flooded; or where it begins, the film that arrives [m] (`Lubricant`)
-    sliding, eyring_stress, carreau : u2 - u1 [m/s], with which shear makes the flow of the film thinner, by the law of
-        Ree and Eyring (tau_E [Pa]) or of Carreau ([G [Pa], n]); without all three the flow is Newtonian. A law of
-        your own is one of the `Lubricant` of `lubfric.film.solve_line_contact`
-    start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
+    inlet_length, inlet_film : where the lubricant begins, and the film that arrives [m] (`Lubricant`); None: fully
+        flooded
+    sliding, eyring_stress, carreau : u2 - u1 [m/s], with which shear thins the flow of the film, by the law of Ree and
+        Eyring (tau_E [Pa]) or of Carreau ([G [Pa], n]); without all three the flow is Newtonian. A law of your own is
+        one of the `Lubricant` of `lubfric.film.solve_line_contact`
+    start : the result of a neighbouring load or speed; if the solve does not converge from it, a cold start is made,
+        and noted
     least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
     raise_on_failure : False returns an unconverged result with its report
 

@@ -54,17 +54,18 @@ class Lubricant(Renamed, Shown):
         None: Newtonian
     carreau : [G [Pa], n [-]], critical stress and exponent of Carreau's law, 0.1 <= n < 1, in place of Eyring's; None
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
-        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit; "f_b": Newtonian up to f_b p, as the deterministic
-        model takes it without a limit, and known to be so: f is not held to depend on the limits of oils
+        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit; "f_b": the oil is stated to be Newtonian up to f_b
+        p. Without a limit the deterministic model assumes the same, but then the error of f contains the limits of oils
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
-    temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
-        ambient pressure [1/K]; None: the heat of the film is not known
-    conductivity : thermal, of the film [W/(m K)]
+    temperature : T0 [K] at which all these values hold, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there
+        at ambient pressure [1/K]; None: the heat of the film is not known
+    conductivity : thermal conductivity of the film [W/(m K)]
     inlet_length : distance [m] upstream of the line of contact at which the lubricant begins, with p = 0 there; None:
         fully flooded
-    inlet_film : thickness [m] of the lubricant that arrives on both surfaces together, at U and ambient density. It
-        fills the gap from where the flow through the contact is as much; None: as much as flows
-    oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
+    inlet_film : thickness [m] of the lubricant that arrives on both surfaces together, moving at U, at ambient density.
+        It fills the gap from the place at which the flow through the contact equals this supply; None: fully flooded
+    oil : the `Oil` that gives viscosity, pressure-viscosity and temperature coefficient (None: they are given as
+        numbers)
 
     shear_modulus : G [Pa] of the film, with which film and discs shear elastically at small slip (K. L. Johnson, J. L.
         Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; oils in contacts about 1e7 to 1e9 Pa); None: no elastic shear
@@ -146,7 +147,7 @@ class Lubricant(Renamed, Shown):
 
     @property
     def flow_law(self) -> ShearLaw | None:
-        """Return how shear thins it; None: it does not."""
+        """Return the law by which shear thins the lubricant; None: shear does not thin it."""
         return next((law(self) for law in FLOW_LAWS if getattr(self, law.key) is not None), None)
 
     @property

@@ -184,17 +184,17 @@ def run_in(
     their overlap. The map continues beyond its ends: onto itself if it is periodic along x, else by its mirror image.
 
     Then, with a ``distance`` and a ``wear_coefficient``, the asperities wear while the surface slides in its
-    lubricated contact at the speed of the scene. Each place where the bodies rub loses K p s/H (J. F. Archard, J.
-    Appl. Phys. 24 (1953) 981-988, doi:10.1063/1.1721448, V = K F s/H), p the asperity pressure of the load-sharing
-    model. Film and contact are solved again at every step. Wear ends where the asperities carry less than 0.1 % of the
-    load. The complete map wears evenly, as a body whose every point passes through the contact does. Films from
-    additives, third bodies, residual stress and hardening are not modelled.
+    lubricated contact at the speed of the scene. Each point in asperity contact loses the height K p s/H (J. F.
+    Archard, J. Appl. Phys. 24 (1953) 981-988, doi:10.1063/1.1721448, V = K F s/H), p the asperity pressure of the
+    load-sharing model. Film and contact are solved again at every step. Wear ends where the asperities carry less than
+    0.1 % of the load. The complete map wears evenly, as a body whose every point passes through the contact does. Films
+    from additives, third bodies, residual stress and hardening are not modelled.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, with ``bodies.hardness`` and one rough body
-    surface : the map to run in, taken as periodic along y; None: that of the scene, on its own cells, whole
-    passes : number of passes after which it ends, if asperities still yield
+    surface : the map to run in, taken as periodic along y; None: the complete map of the scene, on its own cells
+    passes : number of passes after which the run-in ends, even if asperities still yield
     tolerance : depth [m]. The first pass without a deeper new dent ends it, and is not kept. The default is a third of
         an atom
     step : of the contact [m], between one cell and the half-width of the Hertz strip (None: half of that)

@@ -106,9 +106,10 @@ class Bodies(Shown):
     hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
     boundary_friction_coefficient : f_b of the asperity contacts [-]; with a table, that at the scene's own speed
     boundary_friction_table : f_b over the sliding speed or the temperature, a `FrictionTable`, or None
-    boundary_film : gap [m] below which the bodies rub with f_b, of the deterministic model; None: lubfric's own value,
-        of which half and twice are part of the error
-    conductivity : of both bodies [W/(m K)]; they carry the heat of the film away (default: steel)
+    boundary_film : gap [m] below which the shear stress is f_b p, in the deterministic and the quick model; None:
+        lubfric's own value; the error of f then contains half and twice this value
+    conductivity : thermal conductivity of both bodies [W/(m K)], which conduct the heat of the film away (default:
+        steel)
     volumetric_heat : rho c of both bodies [J/(m³ K)]
     """
 

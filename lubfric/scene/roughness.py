@@ -45,13 +45,14 @@ class Roughness(Shown):
     form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
     outliers : what to do with points that are isolated (`lubfric.surface.outliers`), which would carry the load:
         "refuse" the map, "keep" them, or "mask" and fill them
-    s_filter, l_filter : nesting indices [m] of the Gaussian filters of ISO 16610-61. The first takes out what is
-        shorter, the second what is longer
+    s_filter, l_filter : nesting indices [m] of the Gaussian filters of ISO 16610-61. The first removes shorter waves,
+        the second longer ones
     motion_axis : the axis of the *file*, "x" or "y", that lies along the motion
     extension : "mirror" continues a map that is too short along x by its mirror image
     sk, spk, svk : core height, reduced peak height, reduced dale height [m] of a generated plateau-honed map; ``sq``
         follows from them
-    honing_angle : of such a map, between the two directions of its grooves [°], halved by the y axis (None: 50)
+    honing_angle : of such a map, angle [°] between the two directions of its grooves, which the y axis bisects (None:
+        50)
     groove_width : correlation length across its grooves at 1/e [m] (None: the longer correlation length)
 
     Raises

@@ -55,8 +55,8 @@ class Scene(Shown):
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
     ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
-    doubtful : (section.key, value as written) of values outside their usual range, and of a sliding that may be meant
-        in the other convention, percent or ratio. It changes no number
+    doubtful : (section.key, value as written) of values outside their usual range, and of a sliding that may have been
+        meant as a percentage instead of a ratio, or the reverse. It affects no number
     """
 
     bodies: Bodies
@@ -169,7 +169,7 @@ class Scene(Shown):
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """Return a copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section
-        act at once, in any order: a Hertz pressure is that with the radius given with it."""
+        are applied together, in any order: a Hertz pressure refers to the radius given with it."""
         sections = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
         parts: dict[str, dict[str, Any]] = {}
         for key, value in values.items():

@@ -50,8 +50,8 @@ class Transient:
     ----------
     duration : [s]
     outputs : number of output times, spread evenly, in addition to the first
-    first_output : time of the first output [s]; what is before it, the start of a periodic motion, is solved and is in
-        no result
+    first_output : time of the first output [s]; the time before it, such as the start of a periodic motion, is solved
+        but is not part of the results
     speed : entrainment speed [m/s]
     sliding : u2 - u1 [m/s]; None: slide-roll ratio x speed
     load : [N]

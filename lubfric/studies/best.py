@@ -93,14 +93,14 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
     `BestDesign` each.
 
     Conditions are the load, the speeds, the slide-roll ratio, the temperature of the oil, and where an operating point
-    lies; all else that is varied is design. Operating points that vary a design, as the roughness, and say not where
-    they lie are designs as a whole, load and speed included. Two points cannot be distinguished where the difference of their numbers is
-    within the error of this difference. Errors count by the sides of the intervals that face each other. Numerical and
-    sampling errors are taken as independent. Model-form errors of similar designs by the quick model or that of the
-    paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken as independent. Ranges of inputs that both
-    designs share move both numbers the same way: only the difference of the two changes counts. A point without a known
-    interval cannot be distinguished from any other. Where f is that of rolling resistance (`is_by_sliding`), it is not
-    compared.
+    lies; all else that is varied is design. Operating points that vary a design key, such as the roughness, and state
+    no position, angle or time are each a design as a whole, load and speed included. Two points cannot be distinguished
+    where the difference of their numbers is within the error of this difference. Errors count by the sides of the
+    intervals that face each other. Numerical and sampling errors are taken as independent. Model-form errors of similar
+    designs by the quick model or that of the paper are correlated (`CORRELATION_OF_DESIGNS`), all others are taken as
+    independent. Ranges of inputs that both designs share move both numbers the same way: only the difference of the two
+    changes counts. A point without a known interval cannot be distinguished from any other. Where f is that of rolling
+    resistance (`is_by_sliding`), it is not compared.
 
     Parameters
     ----------

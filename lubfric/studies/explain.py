@@ -96,7 +96,7 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
 
 
 def warnings_of(plan: Any) -> list[str]:
-    """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
+    """Return the warnings on a `StudyPlan` that are known before the solve, in sentences: how plain numbers were read,
     and unusual values of its scenes. Nothing is made or solved."""
     violations = [violations_by_unusual_inputs(scene) for scene in plan.scenes]
     return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(violations, "scenes")]

@@ -84,11 +84,12 @@ def fit(
     the complete bounds with the load-sharing model, loose tolerances and at most 8 of the points
     (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum, a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's own
-    model; from the next ones too that larger residuals part from it, while the fit does not describe the data.
-    Derivatives are differences over 4 % of the bounds, which stay above the tolerance on f. A parameter that f does not
-    change with at the fit is followed to its bounds, and curves towards the ends of a wide interval show where these
-    are (`lubfric.studies.fit_profile`); the fit continues from smaller residuals on the way. The search stops when a
-    step moves the parameters by <= 0.2 % of their bounds, or changes the sum by <= 1e-4 of it.
+    model; while the fit does not describe the data, it also continues from the next minima, if larger residuals
+    separate them from the lowest. Derivatives are differences over 4 % of the bounds, which stay above the tolerance on
+    f. A parameter that f does not change with at the fit is followed to its bounds, and curves towards the ends of a
+    wide interval show where these are (`lubfric.studies.fit_profile`); the fit continues from smaller residuals on the
+    way. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the sum by <= 1e-4 of
+    it.
 
     `FitResult` has the uncertainty of the values, and says whether the fit describes the data at all.
     `lubfric.explain_fit` says beforehand how long a fit will take.

@@ -63,8 +63,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     def at(self, speed: ArrayLike) -> np.ndarray:
         """Return f at any speeds [m/s] between the slowest and the fastest, interpolated
-        (`lubfric.studies.interpolate`). They have the direction of the curve: a finite piece of a surface slides
-        differently back and forth."""
+        (`lubfric.studies.interpolate`). They have the direction of the curve: the friction of a finite piece of a
+        surface differs between both directions."""
         contact, film = self.parts_at(speed)
         return contact + film
 
@@ -81,8 +81,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def lift_off(self) -> float | None:
         """The lift-off speed [m/s], in the direction of the curve, above which the film separates the surfaces; None if
-        the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
-        or the numerical error of f there is above 20 %: ``lift_off_range`` has these."""
+        the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2, or where
+        the numerical error of f there is above 20 %: see ``lift_off_range``."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
     @property
@@ -312,7 +312,8 @@ class TractionResult(CurveResult):
 
     @property
     def gaps(self) -> list[Gap]:
-        """Neighbouring points between which f is not known (`lubfric.studies.Gap`): more ratios there show it."""
+        """Neighbouring points between which f is not known (`lubfric.studies.Gap`): more ratios between them determine
+        it."""
         ends = [(np.nan, np.nan) if point is None else point.uncertainty.interval for point in self.points]
         low, high = np.array(ends).reshape(-1, 2).T
         return gaps_of(self.ratio, self.coefficient, 0.5 * (high - low))

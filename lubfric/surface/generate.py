@@ -58,7 +58,8 @@ def generate_surface(
     ----------
     shape, spacing : (nx, ny) points; (dx, dy) or one length [m]
     sq : root mean square height [m]. The mean is removed and the heights are rescaled, so that Sq is met *exactly* in
-        every realisation. Without that it would scatter by about one correlation length over the length of the map
+        every realisation. Without this rescaling, the relative scatter of Sq would be about one correlation length over
+        the length of the map
     correlation_length : lag [m] at which the autocorrelation falls to ``decay_level``; one, or one along x and y
     acf : with r² = (x/bx)² + (y/by)²: "exponential", exp(-r), which has no second derivative, so that slopes,
         curvatures and summits depend on the grid; or "gaussian", exp(-r²)
@@ -68,7 +69,8 @@ def generate_surface(
     sk, spk, svk : core height, reduced peak height, reduced dale height [m], all three instead of ``sq``: a
         plateau-honed surface (`lubfric.surface.honed`), whose plateaus have the ``correlation_length``. They are met
         within 0.2 % in every realisation
-    honing_angle : between the two directions of the grooves [°] (None: 50), halved by the y axis, across the motion
+    honing_angle : angle [°] between the two directions of the grooves (None: 50), which the y axis, across the motion,
+        bisects
     groove_width : correlation length across a groove at 1/e [m] (None: the longer correlation length)
 
     Returns

@@ -284,9 +284,9 @@ class Surface(FrozenArrays, Shown):
     def resampled(
         self, *, shape: tuple[int, int] | None = None, spacing: float | tuple[float, float] | None = None
     ) -> Surface:
-        """Return the map of this area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
-        less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited
-        map), others as averages over the new cells; see `regrid.resample_axis`."""
+        """Return the map of this area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a remainder of
+        less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited map), others as
+        averages over the new cells; see `regrid.resample_axis`."""
         if (shape is None) == (spacing is None):
             raise InputError("resampled needs exactly one of shape (points) and spacing (m)")
         new = self._filled("resampled")

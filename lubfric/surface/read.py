@@ -50,7 +50,7 @@ def read_surface(
     decimal: str | None = None,
     missing_value: float | None = None,
 ) -> Surface:
-    """Read a measured height map, take off its form, then fill what was not measured (the mask stays).
+    """Read a measured height map, remove its form, then fill the points that were not measured (the mask stays).
 
     ==================== ==================================================================
     .npy                 heights[ix, iy]; needs ``spacing``
@@ -66,10 +66,10 @@ def read_surface(
 
     docs/inputs.md has a table of what is read of each format and what is checked. What a header states is used, and an
     argument that contradicts it is refused. Lines above the table that state nothing are skipped; ``surface.notes``
-    lists them all. One that states a size which the table has not is refused. An empty cell, "nan", "Bad", "No Data",
-    "---" and the like are unmeasured. A comma between digits is the decimal mark where semicolons, tabs or blanks
-    separate. A profile is refused. Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you
-    trust a file.
+    lists them all. A line that states another size than that of the table is refused. An empty cell, "nan", "Bad", "No
+    Data", "---" and the like are unmeasured. A comma between digits is the decimal mark where semicolons, tabs or
+    blanks separate. A profile is refused. Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before
+    you trust a file.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ def read_surface(
     InputError : a file that is missing, truncated, of an unknown kind, inconsistent or hostile; a profile; words among
         the numbers; commas that can be read both ways; a title that names a unit which belongs to nothing when ``unit``
         is not given; infinite heights; points that are more than 15 % of the spacing off a uniform grid; spacing or
-        unit that contradict the file, or that nobody gives; slopes that no surface has, since heights and spacing are
-        then in different units
+        unit that contradict the file, or that neither the file nor an argument gives; slopes that no surface has, since
+        heights and spacing are then in different units
     """
     path, head = _opened(path)
     validate.choice("form", form, FORM_POWERS)

@@ -138,11 +138,11 @@ class TransientResult(Renamed, Shown):
         means over y
     report : how the run ended
     violations : the assumptions that do not hold at each output (`lubfric.Violation`); ``validity`` gathers them
-    inputs : how far the range of f_b moves f below and above it at every time [-], (2, nt)
+    inputs : change of f downwards and upwards by the range of f_b at every time [-], (2, nt)
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
-    model : that answers, by its `lubfric.models.Model.name`
+    model : name of the model that answers (`lubfric.models.Model.name`)
     methods : names of the published methods used; ``cite()`` gives the publications
     stated_inputs : the inputs that a publication states, as text; ``cite("methods")`` has them
     rolling_ratios : the smallest and the largest that the rolling part of f may be, over its value; they bound the
@@ -249,9 +249,9 @@ class TransientResult(Renamed, Shown):
         )
 
     def average(self) -> TimeAverage:
-        """Return the average of f over the time that `counts_in_average`, by trapezes between the outputs (which have
-        to be dense enough to show f; between one that counts and one that does not f is that of the former); its error;
-        and its scatter for fixed and for moving roughness."""
+        """Return the average of f over the time that `counts_in_average`, by the trapezoidal rule between the outputs
+        (which have to be dense enough to resolve f; between an output that counts and one that does not, f is that of
+        the first); its error; and its scatter for fixed and for moving roughness."""
         half = 0.5 * np.diff(self.time)
         moving = counts_in_average(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
@@ -311,8 +311,8 @@ class TransientResult(Renamed, Shown):
     def uncertainty(self) -> UncertaintyCurve:
         """Uncertainty budget and 95 % interval of f at every time.
 
-        It has the finite surface, the range of f_b, the sum of the film's shear stress, and the model-form error of
-        steady motion at the same film, asperity load ratio and heat, where that is known.
+        It includes the errors by the finite surface, the range of f_b, the sum of the film's shear stress, and the
+        model-form error of steady motion at the same film, asperity load ratio and heat, where that is known.
         """
         f = self.coefficient
         error = self.sampling_error

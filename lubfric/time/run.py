@@ -44,8 +44,8 @@ def transient(
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed), by variable-step BDF2 with error control. At every step film and rough
     contact share the load of that moment, and satisfy the balance of volume, Eq. (8), over A, the strip of
-    ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With a deterministic model there is one rough
-    gap.
+    ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). In the deterministic model, film and contact
+    have one rough gap.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def transient(
     ------
     InputError : before any work
     ConvergenceError : the shortest step failed; carries the rows so far as its result
-    ValidityError : at some time an assumption is violated so far that f has no meaning, and ``numerics.accept`` is
+    ValidityError : at some time an assumption is violated so strongly that f has no meaning, and ``numerics.accept`` is
         false; carries the complete result
 
     Notes

@@ -22,8 +22,8 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Prepared(FieldsOnly, Renamed, Shown):
-    """A scene prepared by `lubfric.prepare`. It is accepted wherever a scene is, and safe to share: only what it
-    remembers (`Memo`) changes, and that changes no result.
+    """A scene prepared by `lubfric.prepare`. It is accepted wherever a scene is, and safe to share: only its cache
+    (`Memo`) changes, which does not affect results.
 
     Attributes
     ----------
@@ -31,8 +31,8 @@ class Prepared(FieldsOnly, Renamed, Shown):
     surface : the map whose statistics are stated (`Sample.stated_map`): the first strips, joined; a patch on native
         cells
     rough_contact : the contact on the first strips, on the cells of ``sample``; of a patch too
-    contact_work : counted work [s] of that contact, which each use counts: nothing of it is counted by
-        `lubfric.prepare`
+    contact_work : counted work [s] of that contact, added to the work of each point that uses it; `lubfric.prepare`
+        counts none of it
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     has_given_map, has_given_contact : whether a map, or a contact, was given to `lubfric.prepare`

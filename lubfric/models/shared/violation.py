@@ -90,10 +90,11 @@ class Violation(Renamed):
     assumption : which one, an `Assumption`; "": one of a model from outside
     what : the quantity, as text
     value, limit : its value, and the limit of the model, both in ``unit``
-    consequence : what that does to the result
+    consequence : how the violation affects the result
     recommendation : what to change
     severe : True: the coefficient has no meaning, and a `ValidityError` is raised unless accepted. False: a warning
-    is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
+    is_note : True: a note instead of a warning, because the interval of f includes the effect, or because no action
+        helps
     effect : largest relative change of f that it may cause; NaN where that is not known
     """
 
@@ -122,8 +123,8 @@ class Violation(Renamed):
 
     @property
     def text(self) -> str:
-        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: ",
-        "note: " or "not valid: "."""
+        """Three sentences: the violated assumption, its consequence, and the recommendation. The first begins with
+        "warning: ", "note: " or "not valid: "."""
         return self.text_of(f"{self.value_in_words}{self.spaced_unit}")
 
     @property
