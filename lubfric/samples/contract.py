@@ -82,6 +82,10 @@ class Sample(ABC):
         Every n-th of its cells, along each axis, gives the coarse cells to compare it with (`Cells.thinned`).
         """
 
+    def pictured_piece(self, length: float = PIECE_LENGTH) -> Surface:
+        """Return the piece of a picture, as `piece`: of a map around the highest summit of a window."""
+        return self.piece(0, length)
+
     def length_of_piece(self, length: float) -> float:
         """Return the length [m] along y of a piece of this ``length`` [correlation lengths], no longer than the
         surface."""

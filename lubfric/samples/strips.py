@@ -260,10 +260,19 @@ class MeasuredStrips(Sample):
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
+        return self._piece(index, length)
+
+    def pictured_piece(self, length: float = PIECE_LENGTH) -> Surface:
+        return self._piece(0, length, int(self._columns(self.starts[0]).max(axis=0).argmax()))
+
+    def _piece(self, index: int, length: float, row: int | None = None) -> Surface:
+        """Return a `piece` in the middle of its window, or around ``row`` of it, as far as the window goes."""
         window = self._columns(self.starts[index])
         blend = self._blend
         rows = self._rows_of_piece(length)
-        first = 0 if self.piece_is_strip(length) else (window.shape[1] - rows - blend) // 2
+        most = window.shape[1] - rows - blend
+        middle = most // 2 if row is None else min(max(row - (rows + blend) // 2, 0), most)
+        first = 0 if self.piece_is_strip(length) else middle
         piece = joined_maps([window[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 

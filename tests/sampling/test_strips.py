@@ -132,3 +132,18 @@ def test_a_scene_without_cells_is_answered_with_cells_that_work(lengths):
         8 * np.max(lengths), 2 * scene.bodies.half_width
     )
     assert lubfric.prepare(suggested).surface.sq > 0
+
+
+@pytest.mark.parametrize("row", [10, 200, 330])
+def test_the_piece_of_a_picture_holds_the_main_ridge_of_a_map(tmp_path, row):
+    """A ridge along the motion, 300 nm high, wherever it is across; the pieces that f is corrected by stay where they
+    are."""
+    rough = lubfric.generate_surface((128, 400), 1e-6, sq=2e-8, correlation_length=6e-6, acf="gaussian", seed=1)
+    ridge = 3e-7 * np.exp(-(((np.arange(400) - row) / 4.0) ** 2))
+    np.save(tmp_path / "ridge.npy", rough.heights + ridge)
+    keys = {"file": str(tmp_path / "ridge.npy"), "spacing": 1e-6, "outliers": "keep"}
+    grid = {"shape": None, "spacing": None}
+    sample = lubfric.prepare(lubfric.load_scene("paper").with_(surface=keys, contact=grid)).sample
+    pictured = sample.pictured_piece()
+    assert pictured.shape[1] == sample.piece(0).shape[1] < 300 and pictured.heights.max() > 2.5e-7
+    assert (sample.piece(0).heights.max() > 2.5e-7) == (row == 200)

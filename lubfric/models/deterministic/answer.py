@@ -29,7 +29,6 @@ from ..shared import (
     StandardError,
     Violation,
     area_needed,
-    contact_on_piece,
     error_by_heat,
     film_lubricant,
     half_width_of_error,
@@ -39,6 +38,7 @@ from ..shared import (
     limit_in_words,
     percent_beside,
     percent_or_less,
+    pictured_contact,
     sides_of_parts,
     smooth_rolling_resistance,
     standard_error_in_words,
@@ -236,7 +236,7 @@ def fine_fields_of(prepared: Prepared, speed: float, finest: StripSolution) -> C
         return fields_of(finest, sample.piece_on_cells_in_words(finest.problem.spacing))
     coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)
     length = pictured_length(scene, sample)
-    rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=length)
+    rough_contact = pictured_contact(prepared, sample, coarsening=coarsening, length=length)
     strip = solve_strip(scene, map_of_contact(prepared, rough_contact), speed)
     return fields_of(strip, sample.piece_on_cells_in_words(rough_contact.spacing))
 

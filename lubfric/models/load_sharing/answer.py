@@ -17,8 +17,8 @@ from ..shared import (
     Violation,
     contact_at_inputs,
     contact_on_joined_strips,
-    contact_on_piece,
     film_and_exponents,
+    pictured_contact,
     way_to_shorter_cells,
 )
 from .balance import Balance, solve_balance
@@ -112,7 +112,7 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     scene = prepared.scene
     sample = balanced.sample
     coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)
-    rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening)
+    rough_contact = pictured_contact(prepared, sample, coarsening=coarsening)
     balance = balanced.corrected_balance
     if balance.film is None:
         state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)

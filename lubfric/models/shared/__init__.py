@@ -107,6 +107,7 @@ from .prepared import (
     contact_on_piece,
     contact_on_strip,
     operator_on,
+    pictured_contact,
     remembered,
     scene_of,
     way_to_shorter_cells,

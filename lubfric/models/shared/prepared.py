@@ -148,6 +148,14 @@ def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpac
     return remembered(prepared, sample, key, make, lambda contact: contact.heights.size)
 
 
+def pictured_contact(
+    prepared: Prepared, sample: Sample, *, coarsening: tuple[int, int], length: float = PIECE_LENGTH
+) -> HalfSpaceContact:
+    """Return the contact on the piece of ``sample`` for a picture (`Sample.pictured_piece`), on cells of this
+    ``coarsening``."""
+    return _contact_of_piece(prepared, sample, sample.pictured_piece(length), coarsening)
+
+
 def contact_on_piece(
     prepared: Prepared, sample: Sample, index: int, *, coarsening: tuple[int, int], length: float = PIECE_LENGTH
 ) -> HalfSpaceContact:
@@ -158,12 +166,19 @@ def contact_on_piece(
         surface = remembered(
             prepared, sample, PieceMapKey(strip_coarsening, index, length), lambda: sample.piece(index, length)
         )
-        heights = sample.cells.thinned(surface.heights, coarsening)
-        spacing = surface.spacing[0] * coarsening[0], surface.spacing[1] * coarsening[1]
-        return _contact(prepared, heights, spacing, sample.cells.axis(coarsening))
+        return _contact_of_piece(prepared, sample, surface, coarsening)
 
     key = PieceKey(strip_coarsening, index, length, coarsening)
     return remembered(prepared, sample, key, make, lambda contact: contact.heights.size)
+
+
+def _contact_of_piece(
+    prepared: Prepared, sample: Sample, surface: Surface, coarsening: tuple[int, int]
+) -> HalfSpaceContact:
+    """Return the contact on a piece ``surface`` of ``sample``, on cells of this ``coarsening``."""
+    heights = sample.cells.thinned(surface.heights, coarsening)
+    spacing = surface.spacing[0] * coarsening[0], surface.spacing[1] * coarsening[1]
+    return _contact(prepared, heights, spacing, sample.cells.axis(coarsening))
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:
