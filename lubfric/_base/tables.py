@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..units import UNITS, converted, kind_of, spelled
 from .validate import nearest, shown
 
-IN_WORDS = ("validity", "uncertainty")  # columns of a result
+IN_WORDS = ("model", "validity", "uncertainty")  # columns of a result
 MOST_TABLE_BYTES = 2**27  # of a table that is read at once. A convention
 
 # Limits by choice: what is longer is no table of numbers.

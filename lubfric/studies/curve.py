@@ -190,7 +190,13 @@ def columns_of_curve(curve: CurveResult) -> dict[str, np.ndarray]:
 
 
 def csv_bytes(curve: CurveResult) -> bytes:
-    """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
-    assumptions are violated there, and the uncertainty of f. Its bytes follow from the inputs: it has no times."""
-    named = {heading(name): values for name, values in columns_of_curve(curve).items() if name != "seconds"}
-    return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})
+    """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text the
+    model that answered, which assumptions are violated there, and the uncertainty of f. Its bytes follow from the inputs: it has no times."""
+    columns = columns_of_curve(curve)
+    named: dict[str, Any] = {heading(name): values for name, values in columns.items() if name != "seconds"}
+    texts: dict[str, Any] = {
+        "model": ["" if point is None else point.decision.model for point in curve.points],
+        "validity": curve.validity_cells,
+        "uncertainty": list(curve.uncertainty.text),
+    }
+    return table_bytes(named | texts)

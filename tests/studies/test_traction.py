@@ -138,13 +138,13 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch, draws):
     assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0.01:1:3", "--out", str(out)]) == 0
     rows = list(csv.reader((out / "traction.csv").read_text().splitlines()))
     record = json.loads((out / "result.json").read_text())
-    assert len(rows) == 4 and rows[0][0] == "ratio [-]" and rows[0][-2:] == ["validity", "uncertainty"]
+    assert len(rows) == 4 and rows[0][0] == "ratio [-]" and rows[0][-3:] == ["model", "validity", "uncertainty"]
     assert float(rows[2][rows[0].index("coefficient [-]")]) == pytest.approx(record["points"][1]["coefficient"])
     low, high = (float(rows[2][rows[0].index(f"interval_{end} [-]")]) for end in ("low", "high"))
     alone = lubfric.friction(
         lubfric.load_scene(tmp_path / "s.toml").with_(motion={"slide_roll_ratio": float(rows[2][0])})
     )
-    assert low < alone.coefficient < high
+    assert low < alone.coefficient < high and rows[2][-3] == alone.decision.model
     assert (low, high) == pytest.approx(alone.uncertainty.interval, rel=2e-3)
     assert (out / "traction.png").stat().st_size > 10_000
     stated = capsys.readouterr().err
