@@ -28,7 +28,7 @@ from ..estimate import (
     shared_inputs,
     varied_to_quote,
 )
-from ..models import MODELS, Model, prepare
+from ..models import Model, models_up_to, prepare
 from ..models.shared import Assumption, GatheredTexts, gathered_in_table, in_a_cell, is_by_sliding
 from ..quantities import COLUMN_OF_ERROR, NUMBERS, counted
 from ..scene import Scene, inputs_not_given
@@ -267,8 +267,9 @@ class StudyResult(Renamed, Shown):
         first = int(np.argmax(solved.reshape(len(self.plan.keys), -1).any(axis=1)))
         prepared = prepare(self.plan.scenes[first])
         points_by_model = Counter(self.model[solved].tolist())
-        models = [model for model in MODELS if model.name in points_by_model]
-        control = [MODELS[0]] if any(m.takes_control(prepared.scene, prepared.sample) for m in models) else []
+        all_models = models_up_to("auto")
+        models = [model for model in all_models if model.name in points_by_model]
+        control = all_models[:1] if any(m.takes_control(prepared.scene, prepared.sample) for m in models) else []
         uses = [self._use(model) for model in (*models, *control)]
         names = dict.fromkeys(name for use in uses for name in methods_of(prepared, use))
         roughness = [(scene.surface, scene.counterface) for scene in self.plan.scenes]
