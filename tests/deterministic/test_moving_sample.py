@@ -219,6 +219,18 @@ def test_errors_of_cells_grow_where_less_is_known():
     assert all(other.error > error for other in (*others, cells_in_motion(1.6)))
 
 
+MEASURED_ON_HALVED_CELLS = {1.07: 0.050, 1.23: 0.255, 1.24: 0.009, 1.35: 0.113, 1.42: 0.125, 1.52: 0.086, 2.71: 0.212}
+
+
+@pytest.mark.parametrize(("film_ratio", "measured"), MEASURED_ON_HALVED_CELLS.items())
+def test_the_error_of_cells_too_long_for_summits_contains_measured_changes_and_no_multiple_of_the_largest(
+    film_ratio, measured
+):
+    """Rollers and gear flanks of exponential roughness on cells of these lengths and half of them: the change of f,
+    extrapolated by second order."""
+    assert measured <= cells_in_motion(film_ratio, is_smooth=False).error < 0.3
+
+
 @pytest.mark.parametrize(
     ("film_ratio", "wanted", "work", "fails", "halves"),
     [
