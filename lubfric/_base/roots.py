@@ -10,7 +10,8 @@ from typing import Any
 
 from ..errors import CONVERGED, ITERATION_LIMIT, Report
 
-# Of the value before: the secant leads on. A choice: a larger value takes longer secant steps, which may miss the root.
+# Ratio of a value to the one before [-], below which the secant gives the next step; otherwise the step is doubled. A
+# choice: a larger value takes longer secant steps, which may miss the root.
 NEARER = 0.3
 
 # First step of the secant, in x, and the same relative to x [-]. A choice: that of ``scipy.optimize.newton``.

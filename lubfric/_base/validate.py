@@ -27,7 +27,7 @@ OTHER_OPTIONS = {"parabola": "quadratic", "tilt": "plane", "remove": "mask"}
 LONG_NUMBER = 31  # bits of a number that is shown as a power of two
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
-# Of any number: a choice, beyond which powers of it overflow.
+# Smallest and largest magnitude of any number: a choice, beyond which powers of it overflow.
 SMALLEST_NUMBER = 1e-100
 LARGEST_NUMBER = 1e100
 NUMBER_KINDS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates

@@ -24,7 +24,7 @@ AT_MOST = (
     "in the thinnest film) and {} by rolling"
 )
 
-# The same in a few words, beside the budget.
+# These reasons in a few words, next to the budget.
 CUT_AT_LIMIT = "{} ends at the largest f by the limits of the shear stress"
 CUT_AT_ZERO = "{} begins at the smallest f that resists the sliding"
 

@@ -14,7 +14,7 @@ from .markup import bullets
 # Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it
 # (`budget_labels`).
 BUDGET = {name: part.label for name, part in PARTS.items()}
-# The same where the error of the cells is a model-form one.
+# These labels where the error by the cells is part of the model-form error.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
 # What the numerical part of a run in time is called: the error of the integral of the film's shear stress alone.
 NUMERICAL_IN_TIME = "numerical (grid of the film; not the steps in time)"

@@ -73,12 +73,12 @@ def history_effects(prepared: Prepared, result: TransientResult, estimate: Scene
     effects = effects_of_run(prepared, result)
     place = "of the run"
     share = f"{100 * LEAST_SHARE_OF_F:g} %"
-    which = f", each at the output at which it changes f the most, of those with f above {share} of its mean"
+    which = f", each at the output where it changes f the most, among the outputs with f above {share} of its mean"
     note = without_steady_film(prepared.scene, result.time.tolist())
     if result.time.size < 2 or not rolls(result.columns).any():
         effects = estimate.effects_over_time
         place = "before the solve"
-        which = ", each at the moment at which it changes f the most"
+        which = ", each at the time when it changes f the most"
         note = ""
     moments = [each.moment_in_words for each in effects]
     return effects_table([each.effect for each in effects], place, which, moments, note)

@@ -33,7 +33,7 @@ MEASURED_SPEEDS = " The measured speeds take the place of those of the scene."
 
 # What the status says of a pressure-viscosity coefficient that is neither given nor fitted.
 ALPHA_IS_ESTIMATE = (
-    " The pressure-viscosity coefficient is an estimate, and its error, which the fitted parameters have too, is in "
+    " The pressure-viscosity coefficient is an estimate, and its error, which also affects the fitted parameters, is in "
     "no interval."
 )
 
@@ -120,7 +120,7 @@ def fit_status(result: FitResult) -> tuple[str, str]:
     known = result.model_error[np.isfinite(result.model_error)]
     is_inexact = bool(known.size) and float(known.max()) > LARGE_NUMERICAL_ERROR
     if is_inexact:
-        head += f" The model-form error of f, up to {percent(float(known.max()))}, is in no interval of a parameter."
+        head += f" The intervals of the parameters do not include the model-form error of f, up to {percent(float(known.max()))}."
     return status_kind(failed=False, inexact=is_inexact), f"{head}{by_alpha}"
 
 
@@ -231,7 +231,7 @@ def residuals_in_words(result: FitResult) -> list[str]:
     elif math.isnan(tests.size) and not tests.too_far:
         lines.append(
             f"The deviations of the points are not stated: {100 * tests.relative:.2g} % of f (root mean square) is a "
-            "scatter that measurements have."
+            "usual scatter of measurements."
         )
     return lines
 
@@ -249,7 +249,7 @@ def _effects(result: FitResult) -> str:
         return "<p>Not known.</p>"
     place = int(np.argmax(np.abs(result.predicted)))
     where = _place(result, place)
-    return effects_table(result.points[place].unmodelled_effects, f"at {where}", ", of the largest f")
+    return effects_table(result.points[place].unmodelled_effects, f"at {where}", " (largest f)")
 
 
 def _place(result: FitResult, place: int) -> str:

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 # What the text below the curve lists.
 NOT_FULFILLED = "Assumptions of the model that the marked points do not fulfil (see the warnings)"
 
-# The same of one point, which needs no mark.
+# This line for a single point, which needs no mark.
 NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (see the warnings)"
 
 # Choices, by looking at the figures.

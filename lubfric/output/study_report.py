@@ -113,7 +113,7 @@ def _effects_table(result: StudyResult) -> str:
     row = int(np.nanargmax(np.abs(columns_of_study(result)["coefficient"])))
     (effects,) = effects_at(result, [row])
     place = f"at point {row + 1}"
-    which = ", of the largest f"
+    which = " (largest f)"
     return f"<h3>Effects not modelled, {place}{which}</h3>{effects_table(effects, place, which)}"
 
 

@@ -17,8 +17,8 @@ from ..errors import InputError
 TIME_ROUNDING = 1e-12  # relative: times that are closer are one time; a choice, above rounding
 BEND = 0.01  # of the value, by which a straight line may miss it; a choice: what a figure shows
 
-# Of the largest value: what is smaller than it may be missed by as much as it may; a choice: less cuts a history into
-# more pieces.
+# Part of the largest value [-]: smaller values have the error that is allowed at this value. A choice: a smaller part
+# cuts a history into more pieces.
 LEAST_PART = 1e-4
 
 

@@ -34,8 +34,8 @@ INTERPOLATED = 0.25
 # costs no curve.
 BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
 
-# Where a curve between two others may lie, as a share of their distance: nearer ones narrow it too little. A choice: a
-# bisection has (.5, .5).
+# Range of positions of a curve between two others, as a share of their distance: a curve nearer to one of them narrows
+# the distance too little. A choice: a bisection has (.5, .5).
 WITHIN_CURVES = (0.3, 0.7)
 
 

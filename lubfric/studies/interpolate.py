@@ -52,8 +52,8 @@ BEYOND = 1.03
 # smaller value narrows an error that is not measured.
 EXTRAPOLATED_ERROR = 0.05
 
-# The same of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A choice: at
-# 1 the contact would end at a solved speed, and the interpolation overshoots between the others.
+# `EXTRAPOLATED_ERROR` of a lift-off in the middle of the solved speeds around it, where the film is not extrapolated. A
+# choice: at 1 the contact would end at a solved speed, and the interpolation overshoots between the others.
 MIDDLE_ERROR = 0.5
 
 # Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
@@ -66,7 +66,7 @@ WIDEST_BRACKET = 2.0
 NEAR_SPEEDS = 1.6
 FAR_SPEEDS = 4.0
 
-# The same ratios of the lines between the points. A choice: from half a decade on.
+# These ratios for straight lines between the points. A choice: from half a decade on.
 STRAIGHT_FROM = 3.3
 STRAIGHT_WHOLLY = 7.4
 

@@ -44,7 +44,7 @@ SPEEDS_OF_SURFACES = OF_SURFACES
 
 # Columns that say where a point lies. They change no number; means over a cycle weigh by the duration.
 COORDINATES = OF_CYCLE | {"time": Quantity("s", "time")}
-# Those along which points are in order.
+# Columns along which points have an order.
 ORDERED_BY = (POSITION, ANGLE, "time")
 
 # Columns that are no keys of a scene, by their names.

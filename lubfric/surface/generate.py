@@ -18,7 +18,8 @@ from .statistics import INVERSE_E, check_slopes, check_spacing, correlation_leng
 ACFS = ("exponential", "gaussian")
 LEAST_CELLS_OF_LENGTH = 2.0  # cells in one correlation length (1/e); a choice: fewer do not show the correlation
 
-# Of the correlation length that the finite, zero-mean map can have; a choice: less refuses small maps.
+# Largest relative deviation of the expected correlation length of a finite, zero-mean map from the requested one [-]. A
+# choice: a smaller value refuses small maps.
 LENGTH_TOLERANCE = 0.10
 
 # Correlation lengths in a periodic map from which the expected length is within `LENGTH_TOLERANCE`: 10.2 and 5.1 at

@@ -18,14 +18,14 @@ from .._base import validate
 from ..errors import InputError
 from .bearing import bearing
 
-# Of a usual cylinder liner after plateau honing, not of one measured part: a choice each, which the parameters Sk, Spk
-# and Svk that a user gives correct. The sizes are limits by choice: smaller maps and larger cells miss them.
+# Values of a usual cylinder liner after plateau honing, not of one measured part: each is a choice, which Sk, Spk and
+# Svk given by the user correct. The sizes are limits by choice: smaller maps and larger cells miss them.
 GROOVES = 0.2  # share of the area on which grooves are below the plateau: Smr2 near 80 %, as cylinder liners have it
 DEEPER = 5.0  # standard deviation of the grooves over that of the plateau, before both are scaled
 GROOVE_LENGTH_RATIO = 15.0  # correlation length along a groove over that across it
 SHORTEST_MAP = 4.0  # correlation lengths across a groove that the map has at least along each axis
 LEAST_CELLS_OF_GROOVE = 2.0  # cells in a correlation length across a groove
-SCALING_ROUNDS = 8  # of scaling, each of which takes the parameters of the last
+SCALING_ROUNDS = 8  # rounds of scaling, each of which starts from the parameters of the last
 PARAMETER_ERROR = 2e-3  # relative error of Sk, Spk and Svk
 SAMPLES = 200_000  # heights from which the Sq of such a surface is found: within 0.5 %
 

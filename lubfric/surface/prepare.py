@@ -14,13 +14,15 @@ FORM_POWERS = {
     "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
     "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
 }
-BETTER = 0.9  # of Sq: a form that leaves less than that of another is worth its terms. A convention.
-MOST_MISSING = 0.5  # of the points of a map that may be filled. A convention
+BETTER = (
+    0.9  # ratio of the Sq that one form leaves to that of another, below which it is worth its terms. A convention.
+)
+MOST_MISSING = 0.5  # largest part of the points of a map that may be filled. A convention
 
-# Of the largest height: what a fitted form leaves of a map that has it exactly, chosen for rounding.
+# Residual of a fitted form on a map that has exactly this form, over the largest height [-]; chosen for rounding.
 LEFT_BY_FORM = 1e-13
 
-DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest; chosen for rounding
+DEPENDENT = 1e-13  # least eigenvalue of the normal equations over the largest; chosen for rounding
 
 # Robust deviations beyond which a point that stands alone is an outlier. A choice: 2 in 1e9 points of a Gaussian map.
 OUTLIER_LIMIT = 6.0

@@ -18,9 +18,9 @@ from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 # Choices between work and error: the error of the steady start is measured in every run (`film_setting.NODE_FACTORS`).
 # Half and twice this value change f by up to .1 % and the work by up to 13 % (constants.csv).
 EDGE_CELL = 0.16  # smallest cell over the length of the pressure rise
-EDGE_GROWTH = 0.3  # of the cells with the distance from there
+EDGE_GROWTH = 0.3  # growth of the cells with the distance from the edge [-]
 EVEN_CELLS_WEIGHT_IN_TIME = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
-FAR_REACH = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
+FAR_REACH = 40.0  # reach of the grid beyond three half-widths, in sqrt(2 R h)
 
 
 @dataclass(frozen=True, kw_only=True)

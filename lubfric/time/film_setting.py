@@ -19,11 +19,13 @@ from .march import Memory, Step
 # (constants.csv).
 NODE_FACTORS = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 NODE_DENSITY = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
-SLOWEST_RESOLVED = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
-WET_PRESSURE = 1e-3  # of the largest pressure: where the error of the film counts
-FIRST_TIME_PART = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
-TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unless it is said
-LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
+SLOWEST_RESOLVED = (
+    0.03  # part of the largest speed below which the grid is not refined further: squeeze dominates there
+)
+WET_PRESSURE = 1e-3  # part of the largest pressure above which the error of the film counts
+FIRST_TIME_PART = 1e-3  # first step after a start or a jump, over the time in which the surfaces pass the contact
+TIME_SHARE = 0.01  # default largest local error of a step, over the film tolerance
+LEAST_FILM_LOAD = 0.3  # least share of the load on the film that is assumed where film and contact share the load
 # Mass missing in a control volume over the flow that the motion drags through it [-] above which Newton's method takes
 # one more step: some hundred volumes then miss less than the limit of the balance of a run
 # (`lubfric.time.result.MASS`). A choice: a smaller value takes more steps.
@@ -35,7 +37,9 @@ MISSING_FLOW = 1e-6
 STEPS_OF_CREEPING = 4
 # Such steps in addition to all others, at most [-]. A choice: more take longer before a step in time is shortened.
 MOST_CREEPING_STEPS = 60
-SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load: a choice: less takes longer before it fails
+SMALLEST_STAGE = (
+    0.01  # smallest part of ln of a change of the load that is tried; a choice: less takes longer before it fails
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,13 +27,13 @@ from ..units import plain_number, worded
 
 # Choices: larger steps are rejected more often, smaller steps are more numerous. BDF2 is stable for growth below 1 +
 # √2.
-TIME_STEP_SAFETY = 0.85  # of the step that the error allows
-LEAST_TIME_STEP_RATIO = 0.2  # of a step to the one before
-TIME_STEP_GROWTH = 2.0  # the most of that ratio
-FAILED = 0.25  # of the step, after a solve that failed
-LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
-LEAST_TIME_STEP_PART = 1e-11  # of the duration: below it a step has failed for good
-SKIPPED_REST = 0.01  # of the time between two stops: another one is not wanted
+TIME_STEP_SAFETY = 0.85  # next step over the step that the error allows
+LEAST_TIME_STEP_RATIO = 0.2  # least ratio of a step to the one before
+TIME_STEP_GROWTH = 2.0  # largest ratio of a step to the one before
+FAILED = 0.25  # factor on the step after a solve that failed
+LEAST_LEFT = 0.2  # least part of a positive unknown that extrapolation leaves
+LEAST_TIME_STEP_PART = 1e-11  # part of the duration below which a step has failed finally
+SKIPPED_REST = 0.01  # part of the time between two stops within which another stop is skipped
 STOP_ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.scene.history`
 
 

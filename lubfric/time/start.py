@@ -24,8 +24,8 @@ from .scene_in_time import check_start, inlet_viscosity, scene_at, sliding_at, t
 from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
 # Speeds of a run at which its assumptions are checked: a choice between time and what is seen.
-JUDGED_SPEEDS = 4  # looked at between the fastest and the slowest of a run
-SLOWEST_JUDGED = 1e-3  # of the fastest: slower ones are boundary lubrication
+JUDGED_SPEEDS = 4  # number of speeds checked between the fastest and the slowest of a run
+SLOWEST_JUDGED = 1e-3  # slowest checked speed over the fastest: slower ones are boundary lubrication
 # What a run does of the steady options. The film is deflected by its own pressure, whatever the default says.
 SUPPORTED = {
     "film_deflection": ("scaled", "hydrodynamic"),

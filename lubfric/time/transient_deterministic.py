@@ -60,14 +60,14 @@ from .moment_columns import ends_of_film, motion_columns, sense_of_friction
 from .scene_in_time import SLIDING_PART, check_start, scene_at, sliding_at, surface_speed, transient_of
 
 # Choices between work and error, and limits for time and memory.
-TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
+TIME_ERROR = 2e-3  # default largest local error of the film in a step, relative
 RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
 MOST_NEWTON_STEPS_IN_TIME = 25  # Newton steps in a step
 # Least entrainment speed over the fastest one (without entrainment, over b/duration) [-]: slower entrainment is set to
 # it, and such a result counts as at rest. A choice: a larger value than the rounding errors of a frequency leave at a
 # reversal, a smaller one than any flow that matters.
 REST = 1e-6
-LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
+LEAST_FLOW = 1e-3  # least flow to which residuals are relative, over film times speed of the fastest entrainment
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 # Steps in addition to those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20
 # outputs.

@@ -691,7 +691,9 @@ def test_the_status_of_a_fit_names_a_large_model_form_error():
     result = lubfric.fit(SCENE, measured, {FRICTION: (0.05, 0.2)}, starts=0)
     for error, expected in ((0.05, ""), (0.8, "inexact"), (math.nan, "")):
         (kind, text) = fit_status(replace(result, model_error=np.full(SPEEDS.size, error)))
-        assert kind == expected and ("up to 80 %, is in no interval" in text) == (kind == "inexact")
+        assert kind == expected and ("do not include the model-form error of f, up to 80 %" in text) == (
+            kind == "inexact"
+        )
 
 
 @pytest.mark.parametrize("alpha", [None, [2e-8, 1.5e-8, 2.2e-8]])
@@ -704,7 +706,9 @@ def test_a_fit_names_the_error_of_an_estimated_pressure_viscosity_coefficient(al
     result = lubfric.fit(scene, measured, {FRICTION: (0.05, 0.2)}, starts=0)
     (_, status) = fit_status(result)
     is_estimate = alpha is None
-    assert ("coefficient is an estimate, and its error, which the fitted parameters have too" in status) == is_estimate
+    assert (
+        "coefficient is an estimate, and its error, which also affects the fitted parameters" in status
+    ) == is_estimate
     assert (
         any("give lubricant.pressure_viscosity_coefficient" in text for text in result.not_in_intervals) == is_estimate
     )

@@ -141,7 +141,7 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     page = study_report.study_page(result, {}, []).decode()
     assert "Films, pressure, temperature, and parts of the error" in page
     largest = int(np.nanargmax(np.abs(result["coefficient"]))) + 1
-    assert f"<h3>Effects not modelled, at point {largest}, of the largest f</h3>" in page
+    assert f"<h3>Effects not modelled, at point {largest} (largest f)</h3>" in page
     unknown = result.columns | {"film_temperature_rise": np.full(result.status.shape, np.nan)}
     cold = study_report.study_page(replace(result, columns=unknown), {}, []).decode()
     assert "up to threefold" in page and "up to threefold" not in cold  # how well the rises are known, beside them

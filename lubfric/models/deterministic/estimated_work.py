@@ -96,7 +96,8 @@ RUBBED_FILM = 0.25
 # (.05, .07), and one above it (.13). Chosen between them.
 RUBBED_FILM_OF_SHORT_STRIP = 0.1
 
-# Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
+# Newton steps of the second solve of a strip, at a load 3 % larger, over those of a strip whose neighbour is solved
+# [-].
 OF_SLOPE = 0.5
 
 # Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].

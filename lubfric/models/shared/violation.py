@@ -421,7 +421,7 @@ def _runs(numbers: Iterable[int]) -> list[list[int]]:
 def at_value(value: float, unit: str, name: str) -> str:
     """Return the place of one value of a curve: "at 3 m/s", or without a ``unit`` "at a slide-roll ratio of 0.05".
     ``name``: of several values."""
-    return f"at {value:.6g} {unit}" if unit else f"at a {name.removesuffix('s')} of {value:.6g}"
+    return f"at {value:.4g} {unit}" if unit else f"at a {name.removesuffix('s')} of {value:.4g}"
 
 
 def at_values(values: Sequence[float], unit: str, name: str) -> str:
