@@ -11,6 +11,7 @@ from instrument_files import write_x3p
 from small_study import SCENE as SMALL_SCENE
 
 import lubfric
+from lubfric.models import model_named
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, described_scene, main, wrapped
 from lubfric.output.inputs_as_given import inputs_as_given as input_tables
@@ -609,3 +610,13 @@ def test_info_names_the_speed_that_a_run_adds_and_notes_gaps_as_a_run_does():
     assert "3 speeds, with the entrainment speed of 0.3 m/s" in describe_scene(speeds)
     text = described_scene(speeds, ratios=[0.0, 0.1, 0.2])[0]
     assert "note: by closed forms, between the slide-roll ratios 0 and 0.1" in " ".join(text.split())
+
+
+def test_info_names_no_strips_where_the_scene_requests_a_patch():
+    """One patch has no strips of the load-sharing model beside it, which the sample of strips takes as a control."""
+    for sampling, is_control in (("patch", False), ("strips", True)):
+        scene = lubfric.load_scene("paper").with_(numerics={"sampling": sampling})
+        sample = lubfric.prepare(scene).sample
+        text = model_named("deterministic").described_in_auto(scene, "at 0.01 m/s", is_everywhere=True)
+        assert model_named("deterministic").takes_control(scene, sample) == is_control
+        assert ("as differences from the load-sharing model" in text) == is_control and ("patch" in text) != is_control

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from ...samples import Sample
+from ...samples import Sample, requests_patch
 from ...scene import Scene, check_resolved_gap, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, SampleSolution
@@ -97,7 +97,8 @@ class DeterministicModel(Model):
         )
         if has_moving_roughness(scene):
             return f"deterministic model with moving roughness {where}, {target}{elsewhere}"
-        return f"{self.title}, on some strips as differences from the load-sharing model, {where}, {target}{elsewhere}"
+        how = "on the patch" if requests_patch(scene) else "on some strips as differences from the load-sharing model"
+        return f"{self.title}, {how}, {where}, {target}{elsewhere}"
 
     @property
     def most_strip_work_in_auto(self) -> float:
