@@ -28,6 +28,7 @@ from ..units import number_and_unit, numbers_of, with_interval, worded
 from .command_line import scene_of
 from .commands import (
     CommandStart,
+    RunFolder,
     answer,
     check_outputs,
     keeping,
@@ -82,7 +83,7 @@ def run_study(arguments: Namespace) -> None:
             on_point=_point_reports(plan, begun.moment, time_left),
         )
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
-    with run_folder(arguments.out, begun) as folder:
+    with run_folder(arguments.out, begun) as folder, keeping(lambda: _written(folder)):
         for name in names:
             folder.add(name, made, name, writers[name.partition(".")[2]])
         if np.isfinite(result["coefficient"]).any():
@@ -130,6 +131,20 @@ def _kept(folder: Path) -> str:
     kept = f"{counted(study.solved, 'points')} {_verb(study.solved)} kept in {folder}"
     kind = "curves" if study.chosen else "points"
     return f"{kept}, {counted(study.missing, kind)} {_verb(study.missing)} left"
+
+
+def _written(folder: RunFolder) -> str:
+    """Return what is kept where the writing of the files of a study is interrupted, as text."""
+    files = [name for name, content in folder.contents.items() if _holds(folder.path / name, content)]
+    return (
+        f"the solved points are kept in {folder.path}, and of the tables and the report {', '.join(files) or 'no file'} "
+        f"{_verb(max(len(files), 1))} written"
+    )
+
+
+def _holds(path: Path, content: bytes) -> bool:
+    """Return whether the file ``path`` holds the ``content``."""
+    return path.is_file() and path.read_bytes() == content
 
 
 def _verb(count: int) -> str:

@@ -671,3 +671,20 @@ def test_a_study_without_a_point_is_not_drawn(tmp_path, drawn, capsys):
         store.add("plan", tuple(getattr(plan, name) for name in studies.result.PLAN_FIELDS))
     assert main(["plot", str(tmp_path / "out")]) == 2
     assert "has a study without a solved point so far" in " ".join(capsys.readouterr().err.split())
+
+
+def test_an_interrupt_while_the_report_is_written_states_what_is_kept(tmp_path, capsys, monkeypatch):
+    """The points are in the store, and no file is there; then the same command writes all of them without a solve."""
+    path = written(tmp_path, 'scene = "small.toml"\nspeeds = [0.3]\n')
+    out = tmp_path / "out"
+
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as interrupted:
+        interrupted.setattr(run_study, "study_page", stop)
+        assert main(["study", path, "--out", str(out)]) == 130
+    said = " ".join(capsys.readouterr().err.split())
+    assert f"interrupted; the solved points are kept in {out}, and of the tables and the report no file is" in said
+    assert said.endswith("the same command continues from there") and not (out / "study.csv").exists()
+    assert lubfric.open_study(out).missing == 0
