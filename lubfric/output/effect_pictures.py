@@ -60,6 +60,8 @@ NARROW_KEY_LETTERS = 62
 POINT_SIZE = 2.2
 MEAN_SIZE = 3.5
 
+# Why marks are not at their value on the axis x.
+SIDE_BY_SIDE = "at each value the colours are side by side"
 MEAN = "mean over all other inputs"
 MIDDLE = "middle half of the points"
 RANGE_OF_POINTS = "range of the points"
@@ -272,9 +274,11 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     longest = max(len(str(handle.get_label())) for handle in handles) + int(figures.KEY_LINE) + 3
     size = figures.SMALL_KEY_SIZE if options.is_narrow else figures.KEY_SIZE
     across = max(1, min(len(handles), letters // longest))
+    are_apart = len(named) > 1 and any(line.get_markersize() == MEAN_SIZE for line in lines)
+    titles = [*filter(None, (median_interval_in_words(columns), SIDE_BY_SIDE if are_apart else ""))]
     legend = figure.legend(
         handles=handles,
-        title=median_interval_in_words(columns) or None,
+        title="\n".join(titles) or None,
         title_fontsize=size,
         loc="outside lower center",
         ncols=across,

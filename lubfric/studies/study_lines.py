@@ -43,6 +43,9 @@ MOST_BANDS = 4
 # figures.
 BESIDE = 0.12
 
+# Why marks are not at their name on the axis x.
+SIDE_BY_SIDE_IN_LABEL = " (marks side by side)"
+
 # Values of an axis that are its ticks, at most. A choice, by looking at the figures.
 MOST_VALUE_TICKS = 8
 
@@ -104,7 +107,8 @@ def lines_over(axes: Axes, result: Any, over: str, *, has_bands: bool = False, *
     _label_intervals(axes, result, bands=bands)
     for handle in styles.handles:
         axes.plot([], [], **handle)
-    axes.set(xlabel=x_label, ylabel=figures.FRICTION_LABEL)
+    apart = SIDE_BY_SIDE_IN_LABEL if is_text and shifts is not None and len(indices) > 1 else ""
+    axes.set(xlabel=f"{x_label}{apart}", ylabel=figures.FRICTION_LABEL)
     if over == SPEED:
         axes.set_xscale("log")
         figures.plain_ticks(axes.xaxis)

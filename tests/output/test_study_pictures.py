@@ -261,7 +261,7 @@ def test_names_of_an_axis_are_those_of_the_study(tmp_path, drawn):
     study_pictures.plot_study(tmp_path / "study.png", made_study_over(*STUDIES["names alone"]))
     (axes,) = drawn[0].axes
     assert [tick.get_text() for tick in axes.get_xticklabels()] == ["100Cr6", "silicon nitride"]
-    assert axes.get_xlabel() == "material"
+    assert axes.get_xlabel() == "material (marks side by side)"
 
 
 RATIO = np.geomspace(1e-3, 1.0, 5)
@@ -341,8 +341,9 @@ def test_where_lines_meet_the_effect_of_each_input_is_drawn(tmp_path, drawn):
     some = {"coefficient": f, "interval_low": low, "interval_high": low + 0.5 * f}
     options = PictureOptions(width=WIDTHS["column"])
     study_pictures.plot_study(tmp_path / "study.png", replace(result, columns=result.columns | some), options)
-    shown = drawn[1].legends[0].get_title().get_text()
+    (shown, why) = drawn[1].legends[0].get_title().get_text().splitlines()
     assert shown == f"95 % interval of a point (median; known at 9 of {f.size}): -20 %, +30 %"
+    assert why == "at each value the colours are side by side"
     assert faults(drawn[1]) == []
 
 
