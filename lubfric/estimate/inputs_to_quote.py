@@ -8,7 +8,7 @@ from ..models import AUTO
 from ..models.shared import percent
 from ..oil import Lubricant, Oil
 from ..quantities import COLUMNS, KEYS, worded_value
-from ..samples import rough_bodies
+from ..samples import rough_bodies, takes_strips
 from ..scene import BOUNDARY_FILM, FRICTION_OVER, HISTORIES, FrictionTable, Roughness, Scene, materials_of
 from ..surface import Surface
 from ..units import worded
@@ -101,7 +101,7 @@ def _domain(scene: Scene) -> Iterator[str]:
         yield "contact load spread over a nominally flat Hertz strip"
     elif contact.region == "box":
         yield "film and contact compared over the complete patch"
-    if contact.shape is not None:
+    if contact.shape is not None and not takes_strips(scene):
         yield f"patch of {contact.shape[0]} x {contact.shape[1]} points"
     if contact.spacing is not None:
         yield f"distance of the points {_lengths_in_words(contact.spacing)}"

@@ -136,6 +136,9 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     history = Transient(0.01, outputs=5, load=Ramp(start=100.0, end=200.0, until=0.01))
     without = inputs_to_quote(PATCH, has_sampling_error=False)
     assert sorted({*without} - {*inputs_to_quote(PATCH)}) == ["sampling error of f not known"]
+    strips = {*inputs_to_quote(PATCH.with_(numerics={"sampling": "strips"}))}
+    of_patch = ["one patch of the surface in place of strips", "patch of 64 x 48 points"]
+    assert sorted({*inputs_to_quote(PATCH)} - strips) == of_patch
     inputs = inputs_to_quote(replace(PATCH, transient=history))
     assert "run in time over 10 ms" in inputs
     starved = inputs_to_quote(KNOWN.with_(lubricant={"inlet_length": 3e-4}, bodies={"hardness": 2.5e9}))
