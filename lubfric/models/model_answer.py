@@ -107,7 +107,8 @@ class AnswerErrors:
     by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
     parts_of_model : what the model-form error consists of, each with its cause; (): not known
     of_numbers : of the numbers, by name: the standard error of the sample together with the numerical error, which is
-        that of the number where it is known, else ``numerical``; without the model-form error
+        that of the number where it is known, else ``numerical``; without the model-form error, but for that of the
+        division of the load by Eq. (8)
     why_not_known, reasons : why an error is not known: of those not in ``of_numbers`` whose number is neither NaN nor
         0, and of some by name
     notes : remarks on these errors

@@ -117,8 +117,8 @@ def _error_of_loads(curve: CurveResult) -> str:
     size = worded(float(f"{errors[worst]:.2g}"), "N")
     largest = f"up to {size} (at {worded(worst, COLUMNS[swept].unit)})" if len(errors) > 1 else size
     return (
-        f"Asperity load and film load have a standard error of {largest}, by the scatter of the surface and by the "
-        "cells. The error of f is smaller, because load that the asperities lose still causes friction in the film."
+        f"Asperity load and film load have a standard error of {largest}, by the scatter of the surface, by the "
+        "cells, and by Eq. (8) where the load-sharing model answers. The error of f is smaller, because load that the asperities lose still causes friction in the film."
     )
 
 

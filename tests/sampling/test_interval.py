@@ -11,6 +11,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.estimate import estimated_work_of_point, solve_to_tolerance
 from lubfric.models import DeterministicModel, PaperModel
+from lubfric.models.load_sharing import error_of_share
 from lubfric.output import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
 
@@ -82,6 +83,36 @@ def test_errors_belong_together():
     reasons = dry.errors.reasons
     assert math.isnan(dry.min_film) and "there is no film" in reasons["min_film"]
     assert dry.mean_gap > 0 and "there is no film" not in reasons["mean_gap"]
+
+
+# Lambda ratio and asperity load ratio of the load-sharing model, and that of the deterministic model, of gear flanks that
+# roll and slide, in an oil with a limiting stress of 0.05 p.
+GEAR_FLANKS = [(0.05, 0.742, 0.699), (0.10, 0.709, 0.539), (0.14, 0.639, 0.585), (0.19, 0.592, 0.207)]
+GEAR_FLANKS += [(0.28, 0.572, 0.100), (0.29, 0.661, 0.071), (0.37, 0.514, 0.049), (0.45, 0.443, 0.078)]
+GEAR_FLANKS += [(0.56, 0.585, 0.058), (0.67, 0.515, 0.021), (0.91, 0.405, 0.029)]
+
+
+@pytest.mark.parametrize(("ratio", "share", "solved"), GEAR_FLANKS)
+def test_the_error_of_the_load_division_contains_that_of_solved_gear_flanks(ratio, share, solved):
+    assert abs(share - solved) <= error_of_share(ratio, share, may_be_film=True) <= share
+    assert error_of_share(ratio, 0.0, may_be_film=True) == error_of_share(ratio, 1.0) == 0.0
+
+
+def test_loads_by_load_sharing_have_the_error_of_its_division_of_the_load():
+    """Two standard errors lead to no asperity load where film at a limiting stress may carry all of it, and by 0.7
+    sqrt(s (1 - s)) of the load away where the oil has no such stress."""
+    law = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
+    limited = lubfric.friction(PAPER.with_(lubricant=law), 0.01)
+    newtonian = lubfric.friction(PAPER, 0.01)
+    assert limited.film_to_roughness_ratio > 0.2
+    assert 0.5 <= limited.errors.contact_load < 0.55
+    share = newtonian.contact_load / PAPER.bodies.load
+    half = 0.5 * 0.7 * math.sqrt(share * (1 - share))
+    assert half <= newtonian.errors.contact_load * share < 1.1 * half
+    for point in (limited, newtonian):
+        of_asperities = point.errors.contact_load
+        assert point.errors.boundary_force == pytest.approx(of_asperities, rel=0.02)
+        assert point.errors.film_load * point.film_load == pytest.approx(of_asperities * point.contact_load, rel=0.02)
 
 
 def test_contact_may_be_missed_where_the_film_just_clears_the_summits():

@@ -15,6 +15,7 @@ from .closure import film_under, gap_per_film, gap_under, volume_residual, with_
 from .error_of_eq8 import (
     OF_SHARE,
     STATIONARY_ROLLING_RATIOS,
+    error_of_share,
     largest_film_load_ratio,
     least_error,
     load_sharing_error,

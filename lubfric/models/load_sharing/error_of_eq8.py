@@ -36,6 +36,11 @@ STARVED_ERROR = Sides(0.5, 0.1)
 # that command.
 LEAST_WITH_FILM = 0.1
 
+# Part of the asperity load, over the film-to-roughness ratio, that film at the limiting stress of an oil may carry [-];
+# all of it at most. At .3 and .6 the asperity load ratio of the load-sharing model is .57 to .62 and .41 to .44, that of
+# the deterministic one .10 to .63 and .01 to .35 (`python -m verification model --only rolling`).
+AS_FILM = 5.0
+
 # Film-to-roughness ratio from which the flanks add less, with the square of it: 2.4 times the rolling force were seen
 # at 2. A choice below it.
 FLANKS = 1.5
@@ -133,9 +138,17 @@ def least_error(film_to_roughness_ratio: float, share: float) -> float:
     return min(LEAST_WITH_FILM * min(film_to_roughness_ratio, 1.0), OF_SHARE * math.sqrt(share))
 
 
+def error_of_share(film_to_roughness_ratio: float, share: float, *, may_be_film: bool = False) -> float:
+    """Return the error of the ``share`` of the asperities in the load [-], at 95 %; ``may_be_film``: whether films at a
+    limiting stress may carry it (`AS_FILM`)."""
+    of_share = OF_SHARE * math.sqrt(max(share * (1.0 - share), 0.0))
+    as_film = share * min(AS_FILM * film_to_roughness_ratio, 1.0) if may_be_film else 0.0
+    return max(of_share, as_film)
+
+
 def largest_film_load_ratio(film_to_roughness_ratio: float, share: float) -> float:
     """Return the largest part of the load [-] that the film carries, by the model-form error of the ``share`` of the
     asperities; ``film_to_roughness_ratio``: not finite where there is no film."""
-    of_share = OF_SHARE * math.sqrt(max(share * (1.0 - share), 0.0))
+    of_share = error_of_share(film_to_roughness_ratio, share)
     least = least_error(film_to_roughness_ratio, share) if math.isfinite(film_to_roughness_ratio) else 0.0
     return min(1.0 - min(share, 1.0) + max(of_share, least), 1.0)

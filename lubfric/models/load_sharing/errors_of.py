@@ -29,7 +29,7 @@ from ..shared import (
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .closure import gap_per_film, relative_gap_per_film
-from .error_of_eq8 import largest_film_load_ratio, least_error, load_sharing_error, starved_error
+from .error_of_eq8 import error_of_share, largest_film_load_ratio, least_error, load_sharing_error, starved_error
 from .forces import Forces
 from .response import contact_length
 from .scatter import Scatter
@@ -102,7 +102,7 @@ def errors_of(balanced: BalancedSample) -> AnswerErrors:
         error = balanced.friction_scatter
         numerical += film_sensitivity * solver.film_error
         numerical += response.relative("coefficient", solver.gap_error)
-        errors = _contact_errors(balanced, solver)
+        errors = _with_error_of_share(balanced, _contact_errors(balanced, solver))
     notes = _notes(balanced)
     if not math.isfinite(of_sample):
         of_sample = math.nan
@@ -186,6 +186,28 @@ def _contact_errors(balanced: BalancedSample, solver: SolverErrors) -> dict[str,
         )
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
+
+
+def _with_error_of_share(balanced: BalancedSample, errors: dict[str, float]) -> dict[str, float]:
+    """Return the relative ``errors``, those of the division of the load with half the error at 95 % that Eq. (8) has in
+    it (`error_of_share`), where that is known."""
+    balance = balanced.corrected_balance
+    scene = balanced.prepared.scene
+    sq = balanced.prepared.surface.sq
+    load = scene.bodies.load
+    if balance.film is None or not sq > 0 or why_gap_not_resolved(scene):
+        return errors
+    by_model = error_of_share(
+        balance.film.central_film / sq,
+        balance.contact_load / load,
+        may_be_film=scene.lubricant.limit is not None,
+    )
+    changed = dict(errors)
+    for name in depending_on("sharing"):
+        part = balance.film_load if name == "film_load" else balance.contact_load
+        if part > 0 and name in changed:
+            changed[name] = math.hypot(changed[name], 0.5 * by_model * load / part)
+    return changed
 
 
 def _area_errors(balance: Balance, scatter: Scatter) -> dict[str, float]:

@@ -20,6 +20,7 @@ from lubfric import (
     solve_differential_deflection,
     solve_ehl,
 )
+from lubfric.models.load_sharing import error_of_share
 from lubfric.models.shared import Prepared
 from lubfric.samples import Sample
 
@@ -218,7 +219,10 @@ def verdict(prepared: Prepared, result: FrictionResult) -> dict[str, float]:
         judge = judge_of(prepared, result)
         if judge.pairs and share > 0:
             stated += BY_PIECES * result.uncertainty.sampling
-            of_share = max(of_share, BY_PIECES * result.errors.contact_load * share)
+            has_limit = scene.lubricant.limit is not None
+            by_model = 0.5 * error_of_share(result.film_to_roughness_ratio, share, may_be_film=has_limit)
+            of_sample = math.sqrt(max((result.errors.contact_load * share) ** 2 - by_model**2, 0.0))
+            of_share = max(of_share, BY_PIECES * of_sample)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
             (coefficient, open_), contact_share = closed_again(judge, share, closely=closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
