@@ -191,7 +191,8 @@ def columns_of_curve(curve: CurveResult) -> dict[str, np.ndarray]:
 
 def csv_bytes(curve: CurveResult) -> bytes:
     """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text the
-    model that answered, which assumptions are violated there, and the uncertainty of f. Its bytes follow from the inputs: it has no times."""
+    model that answered, which assumptions are violated there, and the uncertainty of f. Its bytes follow from the
+    inputs: it has no times."""
     columns = columns_of_curve(curve)
     named: dict[str, Any] = {heading(name): values for name, values in columns.items() if name != "seconds"}
     texts: dict[str, Any] = {
