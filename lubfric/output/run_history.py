@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from argparse import Namespace
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from .._base import figures, table_bytes
+from .._base.processor_time import processor_time
 from ..errors import WORK_LIMIT, ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell, sentence
 from ..quantities import OF_MOMENT, heading
@@ -28,6 +31,13 @@ from .time_left import TimeLeft
 
 # Part of the expected steps of a run between two lines of its progress. A choice: some 25 lines.
 PART_OF_LINE = 0.04
+
+# Parts of the expected steps, whose pace is measured. A choice: fewer show a time left that stays and jumps.
+PARTS_OF_COURSE = 50
+
+# Part of the estimated time for which a run is taken to have the pace of its estimate, until twice as much has passed.
+# A choice: with less the time left jumps while the first steps are taken, which are short.
+USUAL_PART = 0.25
 
 # What `TimeLeft` calls the work before the first step of a run.
 BEFORE_STEPS = "before the first step"
@@ -52,7 +62,7 @@ class HistoryProgress:
         self.duration = scene.transient.duration
         self.reached = 0.0
         self._fastest = fastest_of_run(scene)
-        self._left = _time_left(scene, run)
+        self._left = time_left_of_run(run)
         self._slow = SlowRun(run.seconds, self.duration, self._speed_at)
         self._line = ProgressLine("% of the duration", self._left, lambda: self._slow.text)
         self._due = commands.paced()
@@ -86,7 +96,8 @@ class HistoryProgress:
     def on_step(self, now: float, duration: float, row: dict[str, float] | None) -> None:
         """Note that the run has reached ``now`` [s], and now and then print the numbers of that moment, its ``row``
         (None: it is not an output)."""
-        self._left.end(now)
+        for each in [each for each in self._left.expected if each <= now]:
+            self._left.end(each)
         self._slow.step(now)
         self.reached = now
         self._line.update(self._share(now), 100.0)
@@ -177,13 +188,14 @@ def _answer_lines(scene: Scene, result: TransientResult, *, complete: bool) -> l
     return [*answer, *budget_of_mean_in_words(result), *not_in, *history_notes(scene, result)]
 
 
-def _time_left(scene: Scene, run: RunEstimate) -> TimeLeft:
-    """Return the time left of the ``run`` of a scene: its parts are the work before the first step, and the steps to
-    each output time [s]."""
-    assert scene.transient is not None
-    times = scene.transient.output_times.tolist()
-    ends = times if times[0] > 0 else times[1:]
-    return TimeLeft({BEFORE_STEPS: run.start_seconds} | dict(zip(ends, run.seconds_between(ends))))
+def time_left_of_run(
+    run: RunEstimate, *, clock: Callable[[], float] = time.monotonic, spent: Callable[[], float] = processor_time
+) -> TimeLeft:
+    """Return the time left of a ``run``: its parts are the work before the first step, and `PARTS_OF_COURSE` parts of
+    the expected steps, each of which is known by its end [s]. ``clock``, ``spent``: as of `TimeLeft`."""
+    ends = run.times_of_parts(PARTS_OF_COURSE)
+    expected = {BEFORE_STEPS: run.start_seconds} | dict(zip(ends, run.seconds_between(ends)))
+    return TimeLeft(expected, usual=USUAL_PART * run.seconds, clock=clock, spent=spent)
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:

@@ -36,7 +36,8 @@ class TimeLeft:
     ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``:
     that solve them. What points take is the processor time of one process, whose ratio to the time that passes is
     measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates
-    corrects the estimates of the others; until `POINTS_OF_PACE` ended, one more counts that takes what is estimated.
+    corrects the estimates of the others; until `POINTS_OF_PACE` ended, one more counts that takes what is estimated,
+    ``usual`` [s] long (None: as the mean of all).
     Those that are being solved raise it when they take more, and then need `LEFT_OF_LATE` of what they took, which
     raises it too.
     """
@@ -46,6 +47,7 @@ class TimeLeft:
         expected: Mapping[Any, float],
         processes: int = 1,
         *,
+        usual: float | None = None,
         clock: Callable[[], float] = time.monotonic,
         spent: Callable[[], float] = processor_time,
     ):
@@ -58,7 +60,8 @@ class TimeLeft:
         self._begun: dict[Any, float] = {}  # when each point began that is being solved [s], by `_spent`
         self._taken = 0.0  # s, of the points that ended
         self._estimated = 0.0  # s, of the same
-        self._usual = sum(self.expected.values()) / max(len(self.expected), 1)  # s, of a point that is as estimated
+        mean = sum(self.expected.values()) / max(len(self.expected), 1)
+        self._usual = mean if usual is None else usual  # s, of a point that is as estimated
         self._lock = threading.RLock()  # a line of progress is drawn on a thread of its own
         self._begin()
 

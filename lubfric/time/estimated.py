@@ -86,7 +86,19 @@ class RunEstimate:
 
     def part(self, time: float) -> float:
         """Return the part [-] of the steps that is expected until ``time`` [s]."""
-        return float(np.interp(time, self.times, self.steps_until) / self.steps_until[-1])
+        return float(np.interp(time, self.times, self._course) / self._course[-1])
+
+    @property
+    def _course(self) -> np.ndarray:
+        """How many steps are expected until each of `times`: those of the start end at the second of these."""
+        return np.append(0.0, self.steps_until[1:])
+
+    def times_of_parts(self, count: int) -> list[float]:
+        """Return the times [s] until which 1, 2, ... of so many (``count``) equal parts of the steps are expected; the
+        last is the end."""
+        course = self._course
+        inner = np.interp(course[-1] * np.arange(1, count) / count, course, self.times)
+        return np.unique([*inner[inner > 0.0], self.times[-1]]).tolist()
 
     def seconds_between(self, times: Sequence[float]) -> list[float]:
         """Return the processor seconds [s] of the steps until the first of ``times`` [s], and from each of them to the

@@ -4,13 +4,15 @@ import io
 import sys
 import time
 
+import numpy as np
 import pytest
 from small_study import SCENE
 
 import lubfric
 from lubfric import studies
-from lubfric.output import ProgressLine, TimeLeft, main, progress
+from lubfric.output import ProgressLine, TimeLeft, main, progress, run_history
 from lubfric.output.time_left import LEFT_OF_LATE
+from lubfric.time import RunEstimate
 
 
 class Machine:
@@ -53,6 +55,30 @@ def test_the_time_left_falls_inside_a_point_and_grows_on_a_slow_machine():
     fast = [pair[0] for pair in seconds]
     assert fast == sorted(fast, reverse=True) and fast[-1] == pytest.approx(22.0)
     assert seconds[-1][1] > 1.5 * (40.0 - 9.0)  # 9 s of work in 18 s
+
+
+def test_the_time_left_of_a_run_in_time_follows_the_expected_course_of_its_steps():
+    """Four fifths of the steps are around a reversal, between two outputs. A run that takes twice its estimate: the
+    time left grew to 2.4 times as much before the first output."""
+    course = {"times": np.array([0.0, 0.4, 0.6, 1.0]), "steps_until": np.array([0.0, 10.0, 90.0, 100.0])}
+    run = RunEstimate(steps=100.0, seconds=120.0, start_seconds=20.0, **course)
+    machine = Machine()
+    left = run_history.time_left_of_run(run, clock=lambda: machine.now, spent=lambda: machine.work)
+    machine.run(20.0)
+    left.end(next(iter(left.expected)))
+    moments = np.linspace(0.0, 1.0, 201)
+    parts = [run.part(moment) for moment in moments]
+    shown = [left.seconds]
+    for moment, part in zip(moments[1:], np.diff(parts)):
+        machine.run(200.0 * part)
+        for end in [end for end in left.expected if end <= moment]:
+            left.end(end)
+        shown.append(left.seconds)
+    true = 200.0 * (1.0 - np.array(parts))
+    assert shown[0] == pytest.approx(100.0) and shown[-1] == 0.0
+    growth = shown / np.maximum(np.minimum.accumulate(shown), 5.0)
+    assert growth.max() < 1.3
+    np.testing.assert_allclose(shown[100:], true[100:], rtol=0.15, atol=4.0)
 
 
 def test_more_than_was_estimated_is_extrapolated_from_what_was_taken():

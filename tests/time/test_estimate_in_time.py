@@ -42,7 +42,8 @@ def test_the_part_of_the_steps_follows_the_reversals():
     run = estimated(Transient(0.01, outputs=2, speed=Harmonic(amplitude=0.03, frequency=50.0, phase=np.pi / 2)))
     parts = [run.part(time) for time in np.linspace(0.0, 0.01, 11)]
     assert np.all(np.diff(parts) >= 0) and parts[-1] == 1.0
-    assert parts[8] - parts[2] > 0.6 * (1.0 - parts[0])
+    assert parts[0] == 0.0 and parts[8] - parts[2] > 0.6 * (1.0 - run.part(run.times[1]))  # of those after the start
+    np.testing.assert_allclose([run.part(time) for time in run.times_of_parts(8)], np.arange(1, 9) / 8)
     (to_reversal, after) = run.seconds_between([0.005, 0.01])
     assert run.start_seconds + to_reversal + after == pytest.approx(run.seconds)
     assert to_reversal / after == pytest.approx(parts[5] / (1 - parts[5])) and run.start_seconds > 0
