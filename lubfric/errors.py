@@ -127,6 +127,7 @@ ITERATION_LIMIT = "iteration_limit"
 STAGNATED = "stagnated"
 DIVERGED = "diverged"
 WORK_LIMIT = "work_limit"
+STOPPED = "interrupted"
 
 ADVICE = {
     CONVERGED: "",
@@ -134,6 +135,7 @@ ADVICE = {
     STAGNATED: "the residual stopped falling: loosen the tolerance or refine the grid",
     DIVERGED: "the iteration left the physical range: check the input, or start closer",
     WORK_LIMIT: "raise numerics.max_work, or loosen tolerance",
+    STOPPED: "the same command continues from there",
 }
 
 
@@ -154,7 +156,8 @@ class Report:
     Attributes
     ----------
     solver : name of the algorithm that produced the result
-    status : one of "converged", "iteration_limit", "stagnated", "diverged", "work_limit"
+    status : one of "converged", "iteration_limit", "stagnated", "diverged", "work_limit",
+        "interrupted"
     iterations : outer iterations taken
     residual, tolerance : dimensionless
     residuals : final value of each measured residual by name

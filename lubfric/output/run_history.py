@@ -12,7 +12,7 @@ import numpy as np
 
 from .._base import figures, table_bytes
 from .._base.processor_time import processor_time
-from ..errors import WORK_LIMIT, ConvergenceError, LubfricError, ValidityError
+from ..errors import STOPPED, WORK_LIMIT, ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell, sentence
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
@@ -42,10 +42,11 @@ USUAL_PART = 0.25
 # What `TimeLeft` calls the work before the first step of a run.
 BEFORE_STEPS = "before the first step"
 
-# What is kept of a run that ended at its limit of work, as text.
-RUN_OF_LARGER_LIMIT = (
-    "the state that was reached; the same command with a larger numerics.max_work continues from there"
-)
+# What is kept of a run that ended early, by its status, as text.
+CONTINUED_BY = {
+    WORK_LIMIT: "the state that was reached; the same command with a larger numerics.max_work continues from there",
+    STOPPED: "the state that was reached",
+}
 
 
 class HistoryProgress:
@@ -138,8 +139,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
-    of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
-    raises `ConvergenceError`.
+    of this one are there. A run that fails or is interrupted writes what it has, and then raises `ConvergenceError` or
+    `KeyboardInterrupt`; an interrupted one continues from where it was.
     """
     progress: HistoryProgress | None = None
 
@@ -160,14 +161,17 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         progress = HistoryProgress(scene, estimate.run, folder)
         with progress:
             result, _ = run_in_time(
-                prepared, checkpoint=folder.unfinished, on_begin=progress.on_begin, on_step=progress.on_step
+                prepared,
+                checkpoint=folder.unfinished,
+                on_begin=progress.on_begin,
+                on_step=progress.on_step,
+                returns_interrupted=True,
             )
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:
             failure = error
-        if result.report.status == WORK_LIMIT:
-            folder.needed_by = RUN_OF_LARGER_LIMIT
+        folder.needed_by = CONTINUED_BY.get(result.report.status, "")
         _write(folder, scene, result, animation=arguments.animation)
         mean = asdict(result.average())
         lines: list[str] = []
@@ -175,6 +179,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             lines = _answer_lines(scene, result, complete=failure is None)
         given = given_tables(arguments.scene)
         folder.complete(prepared, estimate, given, result, OF_MOMENT, lines=lines, mean=mean)
+        if result.report.status == STOPPED:
+            raise KeyboardInterrupt
     if failure:
         raise failure
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._base import validate
-from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, WORK_LIMIT, InputError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, STOPPED, WORK_LIMIT, InputError, Report
 from ..quantities import counted
 from ..scene import History
 from ..units import plain_number, worded
@@ -203,11 +203,17 @@ def grid_residual(value: float) -> Residual:
 
 
 def report_of(
-    solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, Residual], most_work: float = math.inf
+    solver: str,
+    plan: Plan,
+    now: Progress,
+    cells: str,
+    residuals: dict[str, Residual],
+    ended: str = "",
+    most_work: float = math.inf,
 ) -> Report:
     """Return the report of a run with these ``residuals``, and "step", the largest accepted local error. Its summary
-    names what was reached, and of a run that reached its end the largest residual and where it is. ``most_work`` [s]:
-    the limit of counted work at which it ended, if it did."""
+    names what was reached, and of a run that reached its end the largest residual and where it is. ``ended``: the
+    status of a run that ended before, if not by a step that failed, and ``most_work`` [s] the limit of its work."""
     residuals = {"step": Residual(value=now.worst, what="the local error of a step")} | residuals
     worst = max(residuals.values(), key=lambda residual: residual.value)
     status = CONVERGED
@@ -217,7 +223,11 @@ def report_of(
         status = STAGNATED
         why = "The shortest step did not converge"
         advice = "make the histories change less abruptly there, or set a looser transient.tolerance"
-        if math.isfinite(most_work):
+        if ended == STOPPED:
+            status = STOPPED
+            why = "The run was interrupted"
+            advice = ""
+        elif ended == WORK_LIMIT:
             status = WORK_LIMIT
             why = f"The remaining time needs more work than numerics.max_work = {most_work:.4g} s allows"
             advice = (

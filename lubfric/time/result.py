@@ -530,10 +530,11 @@ def collect(
     plan: Plan,
     progress: Progress,
     outputs: list[Output],
+    ended: str = "",
     most_work: float = math.inf,
 ) -> TransientResult:
-    """Return the result of the ``outputs`` so far. ``grid_error``: of a steady start, or NaN; ``most_work``: as in
-    `report_of`."""
+    """Return the result of the ``outputs`` so far. ``grid_error``: of a steady start, or NaN; ``ended``, ``most_work``:
+    as in `report_of`."""
     columns = {name: np.array([o.numbers.get(name, math.nan) for o in outputs], float) for name in OF_MOMENT}
     shape = (-1, model.x.size)
     residuals = {
@@ -559,7 +560,7 @@ def collect(
     low, high = ends.pop(BOUNDARY_FRICTION_KEY, (0.0, 0.0))
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"range of {name.partition('.')[2]}: {NOT_IN}" for name in ends)
-    report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
+    report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, ended, most_work)
     is_omitted = roughness_moves(prepared.scene) and not may_move_roughness(prepared.scene)
     ratios = rolling_ratios_of(omits_flanks=is_omitted)
     columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns, ratios)

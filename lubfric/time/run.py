@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from .._base import limited_work, unlimited_work, validate, with_default_errors
 from .._base.processor_time import processor_time
-from ..errors import InputError, WorkLimitError
+from ..errors import STOPPED, WORK_LIMIT, InputError, WorkLimitError
 from ..estimate import most_work_of_estimate
 from ..models.shared import Prepared, Violation, refused, scene_of
 from ..scene import Scene, Transient
@@ -110,10 +110,12 @@ def run_in_time(
     checkpoint: str | Path | None = None,
     on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
     on_begin: Callable[[float, float], None] | None = None,
+    returns_interrupted: bool = False,
 ) -> tuple[TransientResult, list[str]]:
     """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
     ``checkpoint`` keeps. ``on_begin``: called before the first step as on_begin(time, seconds), with the time [s] from
-    which the run continues, and the processor time of the calls that solved it until there."""
+    which the run continues, and the processor time of the calls that solved it until there. ``returns_interrupted``: an
+    interrupt after the first output returns the outputs so far, with the status "interrupted"."""
     begun = processor_time()
     validate.called_back("on_step", on_step, "time, duration, row")
     scene, times = _with_times(scene, times)
@@ -139,8 +141,9 @@ def run_in_time(
             on_step=on_step,
             most_work=limit - counted.spent,
             begun=begun,
+            returns_interrupted=returns_interrupted,
         )
-    result = collect(model, start.grid_error, plan, progress, outputs, limit if ended else math.inf)
+    result = collect(model, start.grid_error, plan, progress, outputs, ended, limit)
     return result, [key, *_output_keys(key, len(outputs))]
 
 
@@ -165,8 +168,10 @@ def _marched(
     on_step: Callable[..., Any] | None,
     most_work: float,
     begun: float,
-) -> tuple[Progress, list[Output], bool]:
-    """Return the last progress of a run, its outputs, and whether ``most_work`` [s] of counted work ended it. The run
+    returns_interrupted: bool,
+) -> tuple[Progress, list[Output], str]:
+    """Return the last progress of a run, its outputs, and the status with which ``most_work`` [s] of counted work or an
+    interrupt ended it; "" where it ended by itself. The run
     continues from where the ``store`` has it under ``key``, if it does: from its state, with all outputs that the state
     counts, which were stored before it. ``begun``: the processor time [s] at the begin of the call."""
     count, progress, earlier = store.get(key, STATE) or (0, initial_progress(start, plan), 0.0)
@@ -195,8 +200,12 @@ def _marched(
                     if on_step is not None:
                         on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
     except WorkLimitError:
-        return progress, outputs, True
-    return progress, outputs, False
+        return progress, outputs, WORK_LIMIT
+    except KeyboardInterrupt:
+        if not (returns_interrupted and outputs):
+            raise
+        return progress, outputs, STOPPED
+    return progress, outputs, ""
 
 
 def _with_times(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:

@@ -15,7 +15,7 @@ from toys import Spring, YieldingSpring
 
 import lubfric
 from lubfric.models import prepare
-from lubfric.output import main
+from lubfric.output import main, run_history
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.time import ContactStep, TransientLoadSharing
 
@@ -362,6 +362,30 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     assert main(["plot", str(tmp_path / "out")]) != 0
     assert (tmp_path / "out" / "history.png").read_bytes() == drawn
     assert {p.name for p in (tmp_path / "out").iterdir()} == names
+
+
+def test_an_interrupted_command_writes_the_outputs_so_far_and_continues(tmp_path, capsys, monkeypatch):
+    """The interrupt comes with the third output; the same command then continues after it."""
+    plan = Transient(0.01, outputs=4, speed=Harmonic(mean=0.05, amplitude=0.02, frequency=100.0), tolerance=1e-3)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE.with_(transient=plan).to_toml())
+    command = ["run", str(scene), "--out", str(tmp_path / "out")]
+    on_step = run_history.HistoryProgress.on_step
+
+    def interrupted(self, now, duration, row):
+        on_step(self, now, duration, row)
+        if now == 0.005:
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run_history.HistoryProgress, "on_step", interrupted)
+        assert main(command) == 130
+    assert "interrupted; the state at t = 0.005 s is kept" in " ".join(capsys.readouterr().err.split())
+    assert json.loads((tmp_path / "out" / "result.json").read_text())["report"]["status"] == "interrupted"
+    begun = (tmp_path / "out" / "history.csv").read_text().splitlines()
+    assert main(command) == 0 and "continues at t = 0.005 s" in " ".join(capsys.readouterr().err.split())
+    complete = (tmp_path / "out" / "history.csv").read_text().splitlines()
+    assert len(begun) == 4 and len(complete) == 6 and complete[:4] == begun
 
 
 def test_the_command_continues_with_a_larger_limit_of_work_from_where_a_smaller_one_ended_it(tmp_path, capsys):
