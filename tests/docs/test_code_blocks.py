@@ -42,6 +42,14 @@ def test_every_block_says_what_it_is(page):
         assert block.language.startswith("{") or block.language in LANGUAGES, f"{page.name}:{block.line}"
 
 
+@pytest.mark.parametrize("page", PYTHON, ids=lambda p: p.name)
+def test_python_blocks_are_python(page):
+    """Also where running them takes long."""
+    for block in blocks(page):
+        if block.language == "python":
+            compile("\n" * block.line + block.body, str(page), "exec")
+
+
 @pytest.mark.parametrize("page", cases(PYTHON))
 def test_python_blocks_run(page, tmp_path, monkeypatch, load_sharing):
     monkeypatch.chdir(tmp_path)
