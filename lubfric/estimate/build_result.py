@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from .._base import share_read_only
@@ -27,6 +28,7 @@ from .power import PowerLoss, power_loss_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty, number_errors_of
 from .uncertainty_of_f import uncertainty_of
+from .work_of_point import estimated_work_of_point
 
 # Sampling error of f over its target, up to which the length of the sample is no matter [-]: a convention.
 SAMPLED_WELL = 0.1
@@ -54,7 +56,7 @@ def result_of(
     loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors.of_numbers | {"power_loss": loss.error}
-    violations = tuple(_violations(scene, answer, uncertainty))
+    violations = tuple(_violations(prepared, answer, uncertainty))
     why = [choice.why] if choice.why else []
     decision = replace(answer.decision, model=choice.model.name, notes=(*answer.decision.notes, *why))
     friction_parts = (numbers["boundary_force"] / scene.bodies.load, f)
@@ -99,32 +101,42 @@ def result_of(
     )
 
 
-def _violations(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Iterator[Violation]:
+def _violations(prepared: Prepared, answer: ModelAnswer, uncertainty: Uncertainty) -> Iterator[Violation]:
     """Yield the violations of the ``answer``, and those by the errors of f. A short sample whose sampling error is small
     is none."""
+    scene = prepared.scene
     sampling = answer.errors.sampling_error.value
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     for violation in answer.violations:
         if violation.assumption != Assumption.LONG_SAMPLE or not is_sampled_well:
             yield violation
     has_interval = math.isfinite(uncertainty.interval[0])
-    for violation in _violations_by_model_error(scene, answer, has_interval=has_interval):
+    for violation in _violations_by_model_error(prepared, answer, has_interval=has_interval):
         yield beside_larger_part(violation, uncertainty)
     yield from violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation)
 
 
-def _violations_by_model_error(scene: Scene, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:
+def _violations_by_model_error(prepared: Prepared, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:
     """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it.
     ``has_interval``: whether f has an interval."""
     if answer.accepts_model_error:
         return
     yield from violations_by_model_error(
         answer.errors.of_model_alone,
-        tolerance=scene.numerics.model_tolerance,
+        tolerance=prepared.scene.numerics.model_tolerance,
         f=answer.numbers["coefficient"],
         has_interval=has_interval,
         parts=[part for part in answer.errors.parts_of_model if not part.is_of_input],
+        seconds_by=partial(_seconds_by, prepared, answer.numbers["speed"]),
     )
+
+
+def _seconds_by(prepared: Prepared, speed: float, model: str) -> float:
+    """Return the estimated processor time [s] of a point at ``speed`` [m/s] by the ``model`` of this name, as
+    ``lubfric info`` has it; NaN where that model has no answer."""
+    scene = prepared.scene.with_(numerics={"model": model})
+    estimate = estimated_work_of_point(scene, prepared.sample, prepared.surface, speed)
+    return estimate.seconds if estimate.model.name == model else math.nan
 
 
 def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violation:

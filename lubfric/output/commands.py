@@ -289,7 +289,8 @@ def read_record(folder: Path) -> dict[str, Any]:
     for violation in _violations_of(record):
         violation.setdefault("recommendation", violation.pop("remedy", None))  # as records of version 0.2.0 have it
     hints = get_type_hints(Violation)
-    newer = ("assumption", "is_note", "effect")  # fields that records of version 0.2.0 have not
+    # fields that records of version 0.2.0 have not
+    newer = ("assumption", "is_note", "effect", "recommendation_seconds")
     kinds = {field.name: hints[field.name] for field in fields(Violation) if field.name not in newer}
     numbers = {name: kind | None if kind is float else kind for name, kind in kinds.items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}

@@ -1,6 +1,7 @@
 """Validity of converged results: told where the model leaves its range, silent on the paper's scene, refused where f is
 none."""
 
+import math
 import pickle
 from dataclasses import replace
 
@@ -31,6 +32,7 @@ from lubfric.models.shared import (
     violations_by_shear,
     violations_by_thickness,
 )
+from lubfric.output import estimate_scene
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
 FRICTION = 0.09 * PAPER.bodies.load
@@ -459,3 +461,31 @@ def test_asperity_pressures_that_no_steel_carries_have_a_warning(model):
     assert not any("bodies.hardness" in each.recommendation for each in flat.validity)
     hard = lubfric.friction(scene.with_(surface=rough[1], bodies={"hardness": 7e9}), 0.01)
     assert hard.pressure.max() <= 7e9 and not any("bodies.hardness" in each.recommendation for each in hard.validity)
+
+
+def test_advice_at_several_points_has_the_smallest_and_the_largest_of_their_known_times():
+    times = (math.nan, 2.4, 46.0)
+    points = [(0.1 * k, (replace(entry(8.0), recommendation_seconds=time),)) for k, time in enumerate(times, 1)]
+    (text,) = gathered(points)
+    assert text.endswith("It slides. Recommendation (about 2 to 50 s of processor time a point): less.")
+    (in_table,) = gathered_in_table([violations for _, violations in points])
+    assert in_table.text.endswith("It slides. Recommendation (about 2 to 50 s of processor time a point): less.")
+    assert gathered(points[:1])[0].endswith("It slides. Recommendation: less.")
+    points += [(0.4, (replace(entry(7.0), recommendation="more", recommendation_seconds=300.0),))]
+    (text,) = gathered(points)  # the time is that of its own recommendation
+    assert text.endswith(
+        "Recommendation at 3 speeds, 0.1 to 0.3 m/s (about 2 to 50 s of processor time a point): less."
+    )
+
+
+def test_advice_to_solve_by_the_deterministic_model_has_the_time_that_info_states_for_it():
+    on_patch = {"contact": {"shape": (128, 64), "spacing": 0.9e-6}}
+    numerics = {"sampling": "patch", "model": "quick", "model_tolerance": 0.01, "accept": True}
+    scene = lubfric.load_scene("paper").with_(**on_patch, numerics=numerics)
+    point = lubfric.friction(scene, 0.03)
+    (of_model,) = [each for each in point.validity if each.assumption == Assumption.MODEL_FORM_ERROR]
+    named = lubfric.prepare(scene.with_(numerics={"model": "deterministic"}))
+    stated = estimate_scene(named.scene, named.sample, named.surface, [0.03]).seconds
+    assert math.isclose(of_model.recommendation_seconds, stated, rel_tol=1e-9)
+    digit = float(f"{stated:.0e}")
+    assert f"Recommendation (about {digit:g} s of processor time a point): set numerics.model = " in of_model.text

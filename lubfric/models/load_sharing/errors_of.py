@@ -9,6 +9,7 @@ from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
 from ..model_answer import AnswerErrors
 from ..shared import (
     BY_HEAT,
+    DETERMINISTIC,
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
     REDUCED_BY_DETERMINISTIC,
@@ -340,7 +341,12 @@ def _of_sliding(scene: Scene, sides: Sides, rolling: float) -> Sides:
 def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart, ...]:
     """Return the parts of the model-form error of f: ``by_equation`` on both sides, and ``by_heat`` on each."""
     return (
-        ModelErrorPart(sides=by_equation, cause=BY_EQUATION, recommendation=REDUCED_BY_DETERMINISTIC),
+        ModelErrorPart(
+            sides=by_equation,
+            cause=BY_EQUATION,
+            recommendation=REDUCED_BY_DETERMINISTIC,
+            reduced_by_model=DETERMINISTIC,
+        ),
         ModelErrorPart(sides=Sides(by_heat, by_heat), cause=BY_HEAT),
     )
 

@@ -26,6 +26,7 @@ from ..deterministic import (
 from ..deterministic import answer_of as deterministic_answer
 from ..model_answer import ModelAnswer
 from ..shared import (
+    DETERMINISTIC,
     REDUCED_BY_DETERMINISTIC,
     ModelErrorPart,
     Prepared,
@@ -283,6 +284,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         sides=on_long_cells.bounds,
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
+        reduced_by_model=DETERMINISTIC,
         is_usual=_is_usual(on_long_cells),
     )
     parts = (by_cells, *answer.errors.parts_of_model)

@@ -90,6 +90,7 @@ from .memo import (
 )
 from .model_error import (
     BY_HEAT,
+    DETERMINISTIC,
     MODEL_ERROR,
     REDUCED_BY_DETERMINISTIC,
     REDUCED_BY_TOLERANCE,

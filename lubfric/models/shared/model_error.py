@@ -1,7 +1,7 @@
 """The model-form error of f: its parts, and the warning that it is above its target."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from .sides import Sides, added_sides
@@ -12,6 +12,7 @@ MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} below {NEAR_ZERO:g}, in f itself,"
 BY_HEAT = "heat (half of its effect counts as error)"
 REDUCED_BY_DETERMINISTIC = "set numerics.model = 'deterministic' to reduce it"
+DETERMINISTIC = "deterministic"
 REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
 LARGEST_PART = "its largest part is {}"
 IN_INTERVAL = "the interval of f, where it is known, includes it"
@@ -30,6 +31,7 @@ class ModelErrorPart:
     cause : what it comes from, as text
     recommendation : what reduces it, as text; "": nothing that a user may give
     is_of_input : whether it comes from an input that is not known, which no other model knows either
+    reduced_by_model : name of the model that the ``recommendation`` names; "": of none
     is_usual : whether it is usual for the model that answers (docs/models.md), so that a note reports it instead of a
         warning
     """
@@ -37,6 +39,7 @@ class ModelErrorPart:
     sides: tuple[float, float]
     cause: str
     recommendation: str = ""
+    reduced_by_model: str = ""
     is_of_input: bool = False
     is_usual: bool = False
 
@@ -62,13 +65,19 @@ def sides_of_parts(parts: Sequence[ModelErrorPart]) -> Sides:
 
 
 def violations_by_model_error(
-    error: float, *, tolerance: float, f: float, has_interval: bool, parts: Sequence[ModelErrorPart] = ()
+    error: float,
+    *,
+    tolerance: float,
+    f: float,
+    has_interval: bool,
+    parts: Sequence[ModelErrorPart] = (),
+    seconds_by: Callable[[str], float] = lambda model: math.nan,
 ) -> Iterator[Violation]:
     """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``: a
     note where this is because of parts that are usual for the model.
 
     Where f is near 0, the warning states the error in f itself. ``has_interval``: whether f has an interval, which
-    includes the error.
+    includes the error. ``seconds_by``: the estimated processor time [s] of the point by the model of this name.
     """
     if not error > tolerance:
         return
@@ -80,6 +89,8 @@ def violations_by_model_error(
     if recommendation:
         others = error_of_parts([part for part in parts if part is not largest])
         recommendation = OTHER_PARTS.format(recommendation, percent(others)) if others else recommendation
+    model = largest.reduced_by_model if largest is not None else ""
+    seconds = seconds_by(model) if model else math.nan
     consequence = LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL
     is_note = len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance
     if largest is not None and largest.is_usual and not is_note:
@@ -94,4 +105,5 @@ def violations_by_model_error(
         recommendation=recommendation or (READ_INTERVAL if has_interval else ""),
         is_note=is_note,
         effect=error,
+        recommendation_seconds=seconds,
     )

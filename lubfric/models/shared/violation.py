@@ -96,6 +96,8 @@ class Violation(Renamed):
     is_note : True: a note instead of a warning, because the interval of f includes the effect, or because no action
         helps
     effect : largest relative change of f that it may cause; NaN where that is not known
+    recommendation_seconds : estimated processor time [s] of a point with the ``recommendation``; NaN where that is not
+        known
     """
 
     assumption: str = ""
@@ -108,6 +110,7 @@ class Violation(Renamed):
     severe: bool = False
     is_note: bool = False
     effect: float = field(default=math.nan, compare=False)  # NaN is not equal to itself in another process
+    recommendation_seconds: float = field(default=math.nan, compare=False)
     _RENAMED = {"remedy": "recommendation"}
 
     def __post_init__(self) -> None:
@@ -118,6 +121,7 @@ class Violation(Renamed):
             ("severe", bool),
             ("is_note", bool),
             ("effect", float),
+            ("recommendation_seconds", float),
         ):
             object.__setattr__(self, name, kind(getattr(self, name)))
 
@@ -169,12 +173,20 @@ class Violation(Renamed):
         return f"{self.head}: {self.statement(values, place, place_of_recommendation, limits=limits)}"
 
     def statement(
-        self, values: str, place: str = "", place_of_recommendation: str = "", *, limits: Sequence[float] = ()
+        self,
+        values: str,
+        place: str = "",
+        place_of_recommendation: str = "",
+        *,
+        limits: Sequence[float] = (),
+        seconds: Sequence[float] = (),
     ) -> str:
-        """Return the `text_of` without its `head`."""
+        """Return the `text_of` without its `head`; ``seconds``: `recommendation_seconds` of all points with this
+        recommendation, where they may differ from those of this one."""
         numbers = f"{values}{self._limits_in_words(limits)}"
         where = f" {place_of_recommendation}" if place_of_recommendation else ""
-        last = f"{RECOMMENDATION}{where}: {self.recommendation}." if self.recommendation else ""
+        cost = cost_in_words(seconds or [self.recommendation_seconds])
+        last = f"{RECOMMENDATION}{where}{cost}: {self.recommendation}." if self.recommendation else ""
         consequence = f"{place}: {self.consequence}" if place else self.consequence
         return f"{self.what} is {numbers}. {sentence(consequence)}{last}"
 
@@ -188,6 +200,16 @@ class Violation(Renamed):
         if low == high:
             return f", {side} {self._beside_limit[1]}{self.spaced_unit}"
         return f", {side} their limits, {low} to {high}{self.spaced_unit}"
+
+
+def cost_in_words(seconds: Sequence[float]) -> str:
+    """Return the estimated processor times [s] of points, of which NaN are not known, as text to be appended: with one
+    digit, because they are estimates; "" where none is known."""
+    known = [value for value in seconds if math.isfinite(value)]
+    if not known:
+        return ""
+    low, high = (f"{float(f'{end:.1g}'):g}" for end in (min(known), max(known)))
+    return f" (about {low if low == high else f'{low} to {high}'} s of processor time a point)"
 
 
 def sentence(text: str) -> str:
@@ -249,7 +271,8 @@ def gathered_on_curve(
         places = (at_values(those, unit, name) if len(those) < len(group) else "" for those in alike)
         place = at_values(sorted(value for value, _ in group), unit, name)
         limits = [violation.limit for _, violation in group]
-        statement = worst.statement(_from_to(group, unit), *places, limits=limits)
+        seconds = _seconds_of_alike(group, worst)
+        statement = worst.statement(_from_to(group, unit), *places, limits=limits, seconds=seconds)
         lines.append(GatheredTexts(statement=statement, place=place, violation=worst))
     return tuple(lines)
 
@@ -286,6 +309,12 @@ def _alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> tuple[
         sorted(place for place, violation in pairs if violation.consequence == worst.consequence),
         sorted(place for place, violation in pairs if violation.recommendation == worst.recommendation),
     )
+
+
+def _seconds_of_alike(group: Iterable[tuple[Place, Violation]], worst: Violation) -> list[float]:
+    """Return the `Violation.recommendation_seconds` of those of a ``group`` with the recommendation of its ``worst``
+    violation."""
+    return [each.recommendation_seconds for _, each in group if each.recommendation == worst.recommendation]
 
 
 def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
@@ -354,7 +383,13 @@ def gathered_in_table(rows: Sequence[Sequence[Violation]]) -> list[GatheredTexts
         limits = [violation.limit for violation in group.values()]
         lines.append(
             GatheredTexts(
-                statement=worst.statement(_range_in_table(group), place, advised.lower(), limits=limits),
+                statement=worst.statement(
+                    _range_in_table(group),
+                    place,
+                    advised.lower(),
+                    limits=limits,
+                    seconds=_seconds_of_alike(group.items(), worst),
+                ),
                 place=numbers_in_words(sorted(group), len(rows)),
                 numbers=tuple(sorted(group)),
                 names_all_points=len(_runs(sorted(group))) <= MOST_PLACES,
