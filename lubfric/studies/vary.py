@@ -28,6 +28,8 @@ SPEED_KEYS = (
     "motion.speed_range",
 )
 TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
+VISCOSITY = "lubricant.viscosity"
+PRESSURE_VISCOSITY = "lubricant.pressure_viscosity_coefficient"
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
 VARIED_SECTIONS = (*FITTED, "counterface", "contact", "numerics")
@@ -233,6 +235,28 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
         raise InputError(
             f"{what}: {min(given)} does not change a viscosity that is given as a number; give the scene {oils}"
         )
+
+
+def check_viscosity(scene: Scene, axes: Iterable[Axis]) -> None:
+    """Raise `InputError` for ``axes`` that put a viscosity in place of the oil of the scene while its pressure-viscosity
+    coefficient, an estimate from that oil, would stay what it is."""
+    oil = scene.lubricant.oil
+    rows = [_names_in(axis.at(index)) for axis in axes for index in range(len(axis.values))]
+    is_given = oil is None or oil.alpha is not None or any(PRESSURE_VISCOSITY in names for names in rows)
+    if is_given or not any(VISCOSITY in names and "lubricant.oil" not in names for names in rows):
+        return
+    raise InputError(
+        f"{VISCOSITY} is varied, but the viscosity of the scene comes from an oil, which also gives its "
+        "pressure-viscosity coefficient",
+        recommendation="vary lubricant.nu40, lubricant.grade or lubricant.temperature, or give "
+        f"{VISCOSITY} and {PRESSURE_VISCOSITY} as numbers",
+    )
+
+
+def _names_in(values: dict[str, Any]) -> set[str]:
+    """Return the keys of ``values``, and those in a whole section, by "section.key"."""
+    parts = {f"{key}.{name}" for key, value in values.items() if isinstance(value, dict) for name in value}
+    return {*values, *parts}
 
 
 def _listed(name: str, keys: tuple[str, ...], values: Any) -> Axis:
