@@ -1,6 +1,7 @@
 """The length of the sample: one number in the estimate, the result, the fields and the picture."""
 
 import re
+import time
 
 import numpy as np
 import pytest
@@ -78,3 +79,20 @@ def test_warnings_recommend_nothing_that_the_scene_has():
 def test_the_reason_against_the_deterministic_model_has_the_unit_of_its_key():
     scene = ROLLING.with_(lubricant={"shear_modulus": "100 MPa"}, numerics={"model": "auto"})
     assert "lubricant.shear_modulus = 100 MPa (the deterministic model allows none," in describe_scene(scene)
+
+
+def test_the_estimate_of_a_measured_map_has_the_time_in_which_its_file_is_made_ready(tmp_path):
+    patch = {"contact": {"shape": None, "spacing": None}, "numerics": {"model": "quick", "sampling": "patch"}}
+    rng = np.random.default_rng(5)
+    waves = np.exp(-((np.hypot(np.fft.fftfreq(300)[:, None], np.fft.rfftfreq(300)) * 20.0) ** 2))
+    heights = np.fft.irfft2(np.fft.rfft2(rng.standard_normal((300, 300))) * waves, (300, 300))
+    np.save(tmp_path / "map.npy", 1e-7 * heights / heights.std())
+    scene = PAPER.with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 2e-7}, **patch)
+    begun = time.process_time()
+    prepared = lubfric.prepare(scene)
+    taken = time.process_time() - begun
+    with_file, without = (
+        estimate_scene(each, prepared.sample, prepared.surface, [0.03]).seconds
+        for each in (scene, PAPER.with_(**patch))
+    )
+    assert 0.1 < (with_file - without) / taken < 10.0
