@@ -116,6 +116,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "models_that_may_answer",
         "models_up_to",
         "title_of",
+        "title_to_quote",
     }
     names = set()
     for file in sorted((ROOT / "lubfric" / "estimate").rglob("*.py")):

@@ -10,7 +10,7 @@ from ..oil import Lubricant, Oil
 from ..quantities import COLUMNS, KEYS, worded_value
 from ..samples import rough_bodies, takes_strips
 from ..scene import BOUNDARY_FILM, FRICTION_OVER, HISTORIES, FrictionTable, Roughness, Scene, materials_of
-from ..surface import Surface
+from ..surface import PER_SQ, Surface
 from ..units import worded
 
 # Methods by which a pressure-viscosity coefficient is estimated (`lubfric.oil.Oil.pressure_viscosity_coefficient`).
@@ -36,6 +36,9 @@ DEFORMED_BY = {
     "scaled": "the total load, by a scaled modulus",
     "hydrodynamic": "its own pressure alone",
 }
+
+# Where heat is modelled by default (`lubfric.scene.Numerics.heat`).
+HEAT_WHERE_LARGE = " where it changes f by more than its share of the numerical tolerance"
 
 # Names of the laws of the viscosity and of the density over the pressure in a paragraph, by the values of their keys.
 LAWS_OVER_PRESSURE = {
@@ -101,10 +104,13 @@ def _domain(scene: Scene) -> Iterator[str]:
         yield "contact load spread over a nominally flat Hertz strip"
     elif contact.region == "box":
         yield "film and contact compared over the complete patch"
+    grid = []
     if contact.shape is not None and not takes_strips(scene):
-        yield f"patch of {contact.shape[0]} x {contact.shape[1]} points"
+        grid.append(f"{contact.shape[0]} x {contact.shape[1]} points")
     if contact.spacing is not None:
-        yield f"distance of the points {_lengths_in_words(contact.spacing)}"
+        grid.append(f"distance of the points {_lengths_in_words(contact.spacing)}")
+    if grid:
+        yield f"grid of the height map: {', '.join(grid)}"
 
 
 def _lengths_in_words(lengths: float | tuple[float, float]) -> str:
@@ -149,7 +155,7 @@ def options_to_quote(scene: Scene, *, takes_boundary_film: bool = True) -> Itera
     if numerics.heat == "off":
         yield "heat not modelled"
     elif lubricant.temperature_coefficient is not None:
-        yield f"heat modelled{' if it matters' if numerics.heat == 'auto' else ''}"
+        yield f"heat modelled{HEAT_WHERE_LARGE if numerics.heat == 'auto' else ''}"
         yield f"temperature coefficient of the viscosity {worded(lubricant.temperature_coefficient, '1/K')}"
         yield f"thermal conductivity of the film {worded(lubricant.conductivity, 'W/(m K)')}"
         yield f"of the bodies {worded(scene.bodies.conductivity, 'W/(m K)')}"
@@ -230,11 +236,17 @@ def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_
             yield f"height map{name} {Path(rough.file).name}{_map_in_words(rough, measured.get(section))}"
         if rough.sq is not None:
             nominal = "" if rough.sk is None else "nominal "
-            yield f"{nominal}Sq{name} {worded(rough.sq, 'm')}{_range(scene, f'{section}.sq')}"
+            ra = f" (Ra {worded(PER_SQ['ra'] * rough.sq, 'm')})" if _has_gaussian_heights(rough) else ""
+            yield f"{nominal}Sq{name} {worded(rough.sq, 'm')}{ra}{_range(scene, f'{section}.sq')}"
         if rough.file is None:
             yield from _generated(rough, name)
     if scene.counterface is None:
         yield "smooth counterface"
+
+
+def _has_gaussian_heights(rough: Roughness) -> bool:
+    """Return whether ``rough`` is generated with Gaussian heights, whose Ra follows from Sq, or the reverse."""
+    return rough.file is None and rough.sk is None
 
 
 def _map_in_words(rough: Roughness, surface: Surface | None) -> str:

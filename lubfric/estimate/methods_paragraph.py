@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..models import title_of
+from ..models import title_of, title_to_quote
 from ..models.shared import UNKNOWN_SIDES, Decision, percent
 from ..quantities import COLUMNS
 from ..scene import BOUNDARY_FILM
@@ -46,23 +46,22 @@ def methods_paragraph(
     answer, where it is not known which did), their
     ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain and how wide they
     are, by their ``uncertainties``."""
-    by_model = Counter(points_by_model or [decision.model for decision in decisions])
-    total = sum(by_model.values())
+    kept = {title_to_quote(name): count for name, count in (points_by_model or {}).items()}
+    by_title = Counter(kept or map(_title, decisions))
+    total = by_title.total()
     shares = [
-        title_of(name) if count == total else f"{title_of(name)} ({count} of {total} points)"
-        for name, count in by_model.most_common()
+        title if count == total else f"{title} ({count} of {total} points)" for title, count in by_title.most_common()
     ]
     names = [title_of(name) for name in models]
     which = f"{_joined(names, 'or')}{WHICH_MODEL if len(names) > 1 else ''}"
     by = f" by its {_joined(shares) or which}" if shares or names else ""
-    by_purpose: dict[str, list[str]] = {}
-    for source in sources:
-        by_purpose.setdefault(source["purpose"], []).append(_reference(source))
-    methods = "; ".join(f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items())
+    methods = _purposes([source for source in sources if not source.get("is_origin")])
+    origins = _purposes([source for source in sources if source.get("is_origin")])
     sentences = [f"{what} was computed with lubfric {version}{by}."]
     facts = [*inputs, *_cells(decisions)]
     sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
     sentences += [f"The methods are: {methods}."] if methods else []
+    sentences += [f"Credit is due to the {origins}."] if origins else []
     parts = _parts_of_interval(uncertainties)
     sentences += (
         [f"The 95 % interval of f contains{SIZES_IN_PARAGRAPH} {_joined(parts)}{_widths(uncertainties)}."]
@@ -70,6 +69,21 @@ def methods_paragraph(
         else []
     )
     return " ".join(sentences)
+
+
+def _title(decision: Decision) -> str:
+    """Return what answered by a ``decision``, as text: what stands in for its model, where that solved no film with its
+    contact."""
+    stands_in = decision.basis if decision.cells_of_strip is None else ""
+    return stands_in or title_to_quote(decision.model)
+
+
+def _purposes(sources: Sequence[dict[str, Any]]) -> str:
+    """Return what ``sources`` are used for, each purpose once with its sources, as text."""
+    by_purpose: dict[str, list[str]] = {}
+    for source in sources:
+        by_purpose.setdefault(source["purpose"], []).append(_reference(source))
+    return "; ".join(f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items())
 
 
 def _cells(decisions: Sequence[Decision]) -> list[str]:

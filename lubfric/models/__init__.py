@@ -13,5 +13,13 @@ from .load_sharing import Balance, PaperModel
 from .model_answer import AnswerErrors, ContactFields, ModelAnswer, ModelDetails
 from .prepare import prepare, prepare_on_maps, prepare_on_sample, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
-from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to, title_of
+from .registry import (
+    MODELS,
+    model_named,
+    models_cheaper_than,
+    models_that_may_answer,
+    models_up_to,
+    title_of,
+    title_to_quote,
+)
 from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, MeasuredTime, SharedWork, WorkEstimate

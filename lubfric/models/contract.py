@@ -119,6 +119,11 @@ class Model(ABC):
         """What pictures and texts call the model."""
         return f"{self.name} model"
 
+    @property
+    def summary(self) -> str:
+        """What the model is, as text for a publication; "": the sources that it cites say it."""
+        return ""
+
     @abstractmethod
     def solve(
         self,

@@ -29,6 +29,12 @@ def title_of(name: str) -> str:
     return next((model.title for model in MODELS if model.name == name), f"{name} model")
 
 
+def title_to_quote(name: str) -> str:
+    """Return the title of the model of this ``name`` with what it is, for a publication (`Model.summary`)."""
+    summary = next((model.summary for model in MODELS if model.name == name), "")
+    return f"{title_of(name)} ({summary})" if summary else title_of(name)
+
+
 def models_up_to(name: str) -> tuple[Model, ...]:
     """Return the model of this ``name`` and the cheaper ones, the cheapest first; all of them for `AUTO`."""
     if name == AUTO:

@@ -14,6 +14,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base import packaged
 from lubfric.estimate import cited, inputs_to_quote
+from lubfric.models.quick import error_models
 from lubfric.output import main
 from lubfric.scene import Ramp, Transient
 
@@ -56,6 +57,8 @@ def test_a_paragraph_to_quote_has_what_was_used():
     assert f"the sampling error (< 0.001 to {largest:.2g} %)" in text
     known = r"the model-form error \(.* %\) and the assumed range of the boundary film, half to twice 20 nm \([\d.]+"
     assert re.search(known, text) and "a method of lubfric" in text and "Hu and Zhu 2000" in text
+    methods = text.partition("The methods are: ")[2].partition(". Credit is due to the origin of ")
+    assert "Hu and Zhu 2000" in methods[2] and "Hu and Zhu" not in methods[0]
     assert "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
     point = curve.points[1]
     assert "by its load-sharing model." in point.cite("methods") and "Polonsky" not in point.cite("methods")
@@ -86,7 +89,8 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         "viscosity over pressure of Roelands; density over pressure of Dowson and Higginson",
         "film of the load-sharing model deformed by its own pressure alone",
         "error targets of f 5 % (numerical), 2 % (sampling, standard error), 5 % (model-form)",
-        f"Sq {1e9 * scene.surface.sq:.4g} nm; correlation length {1e6 * scene.surface.correlation_length:.4g} µm",
+        f"Sq {1e9 * scene.surface.sq:.4g} nm (Ra {1e9 * math.sqrt(2 / math.pi) * scene.surface.sq:.4g} nm); correlation "
+        f"length {1e6 * scene.surface.correlation_length:.4g} µm",
         f"height map generated with the seed {scene.surface.seed}; smooth counterface",
         f"viscosity index {scene.lubricant.oil.index:.4g}; oil temperature 60 °C; density ",
         f"load {b.load:.4g} N",
@@ -117,6 +121,27 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     assert "docs/" not in estimated + study
 
 
+def test_the_paragraph_says_what_the_quick_model_is():
+    """With the numbers of solved cases in its calibration; where load sharing stands in for it, this is stated."""
+    study = lubfric.study(PATCH, {}, [0.03])
+    as_quick = replace(study, model=numpy.full(study.model.shape, "quick", dtype=object)).cite("methods")
+    assert (
+        "quick model (the deterministic model of film and asperity contact on long cells, with a bias and" in as_quick
+    )
+    cases = {kind: model.cases for kind, model in error_models().items()}
+    assert f"{cases['rest']} solved cases of roughness at rest and {cases['rolling']} of moving roughness)" in as_quick
+    stands_in = lubfric.friction(PATCH.with_(lubricant={"inlet_length": 3e-4}, numerics={"model": "quick"}), 0.1)
+    assert "by its load-sharing model in place of the quick model. The" in stands_in.cite("methods")
+
+
+def test_heights_that_are_not_gaussian_have_no_ra_of_their_sq():
+    honed = {"sq": None, "sk": 1e-6, "spk": 3e-7, "svk": 1e-6, "correlation_length": (2e-5, 1e-5)}
+    stated = "; ".join(inputs_to_quote(PATCH.with_(surface=honed)))
+    assert "nominal Sq" in stated and "(Ra " not in stated
+    warm = PATCH.with_(lubricant=WARM)
+    assert "heat modelled where it changes f by more than its share of the numerical tolerance" in inputs_to_quote(warm)
+
+
 def test_the_paragraph_of_a_study_names_each_model_with_its_points():
     """Two loads of three speeds each, of which the deterministic model answers two points."""
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03, 0.1, 0.3])
@@ -137,8 +162,11 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     without = inputs_to_quote(PATCH, has_sampling_error=False)
     assert sorted({*without} - {*inputs_to_quote(PATCH)}) == ["sampling error of f not known"]
     strips = {*inputs_to_quote(PATCH.with_(numerics={"sampling": "strips"}))}
-    of_patch = ["one patch of the surface in place of strips", "patch of 64 x 48 points"]
-    assert sorted({*inputs_to_quote(PATCH)} - strips) == of_patch
+    of_patch = [
+        "one patch of the surface in place of strips",
+        "grid of the height map: 64 x 48 points, distance of the points 1.4 µm",
+    ]
+    assert sorted({*inputs_to_quote(PATCH)} - strips) == sorted(of_patch)
     inputs = inputs_to_quote(replace(PATCH, transient=history))
     assert "run in time over 10 ms" in inputs
     starved = inputs_to_quote(KNOWN.with_(lubricant={"inlet_length": 3e-4}, bodies={"hardness": 2.5e9}))

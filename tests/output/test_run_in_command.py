@@ -50,7 +50,7 @@ def test_the_files_hold_what_the_function_returns(folder):
     quoted = result.cite("methods")
     for words in (
         "Running-in of the surface was computed with lubfric",
-        "Sq 100 nm; correlation length",
+        "Sq 100 nm (Ra 79.79 nm); correlation length",
         "plastic limit of the contact pressure 2 GPa",
         f"{result.deepest.size} passes in steps of ",
         "entrainment speed 0.01 m/s",

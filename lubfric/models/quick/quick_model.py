@@ -41,7 +41,7 @@ from ..shared import (
     why_no_rough_film,
 )
 from ..work_estimate import NONE_TOUCHES, WorkEstimate
-from .calibrated_error import error_model_of, out_of_range, reported, widening
+from .calibrated_error import error_model_of, error_models, out_of_range, reported, widening
 from .long_cells import CELLS_OF_THIN_FILM, map_coarsening_at_rest, map_coarsening_in_motion
 from .strips_on_long_cells import (
     LEAST_TOLERANCE,
@@ -302,6 +302,14 @@ class QuickModel(Model):
     @property
     def name(self) -> str:
         return "quick"
+
+    @property
+    def summary(self) -> str:
+        cases = {kind: model.cases for kind, model in error_models().items()}
+        return (
+            "the deterministic model of film and asperity contact on long cells, with a bias and errors calibrated on "
+            f"{cases['rest']} solved cases of roughness at rest and {cases['rolling']} of moving roughness"
+        )
 
     @property
     def takes_boundary_film(self) -> bool:
