@@ -24,6 +24,9 @@ FULL_FILM_PART = 0.01
 MOST_STEP = 10.0
 # Factor on the speed, of which the change of f is stated. A choice: any other is as good.
 FASTER = 1.1
+# What leaves open where f is least, if the points alone do not.
+BY_INTERPOLATION = "the error of the interpolation between the points"
+BY_NUMERICAL_ERRORS = "the numerical errors of the points"
 # Which force f is, where a reader may ask for its sign.
 SIGN_OF_F = (
     "f is the force on surface 2 ([counterface], which moves at U (1 + S/2)) against its sliding over surface 1 "
@@ -224,9 +227,7 @@ def minimum_in_words(curve: StribeckResult) -> str:
     speeds = curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)]
     sense = float(np.sign(speeds[0]))
     solved = np.sort(np.abs(speeds))
-    first, last = sorted(map(abs, minimum.speeds))
-    low = float(solved[solved <= first].max(initial=solved[0]))
-    high = float(solved[solved >= last].min(initial=solved[-1]))
+    (low, high) = _solved_around(solved, minimum.speeds)
     between = f"between U = {sense * low:.3g} and {sense * high:.3g} m/s"
     if minimum.is_bracketed:
         return f"The minimum of f is {with_interval(minimum.coefficient, *minimum.interval)}, {between}."
@@ -242,9 +243,17 @@ def minimum_in_words(curve: StribeckResult) -> str:
         if is_at_end and abs(minimum.speed) != end:
             return f"The minimum of f lies {between} or at {others} speeds; solve these to find it."
         if is_at_end:
-            errors = "" if beside else f"; by the numerical errors of the points it may lie {between}"
+            is_interpolated = (low, high) == _solved_around(solved, minimum.interpolated_speeds)
+            error = BY_INTERPOLATION if is_interpolated else BY_NUMERICAL_ERRORS
+            errors = "" if beside else f"; by {error} it may lie {between}"
             return f"The minimum of f is not reached: f still falls towards the {name} speed, U = {sense * end:.3g} m/s{errors}."
     return f"The minimum of f lies {between}; {more}."
+
+
+def _solved_around(solved: np.ndarray, speeds: tuple[float, float]) -> tuple[float, float]:
+    """Return (lowest, highest) of the ``solved`` speeds [m/s], ascending without their sign, around ``speeds``."""
+    first, last = sorted(map(abs, speeds))
+    return float(solved[solved <= first].max(initial=solved[0])), float(solved[solved >= last].min(initial=solved[-1]))
 
 
 def gap_notes(result: CurveResult | TransientResult) -> list[str]:

@@ -151,6 +151,7 @@ class Minimum:
         a `StribeckResult`: 95 % interval, with these errors
     speeds : (lowest, highest) speed [m/s] at which f may be least, by the interpolation and the numerical errors of the
         points
+    interpolated_speeds : the same by the interpolation alone
     is_inside : whether ``speeds`` reach neither the slowest nor the fastest solved speed
     is_bracketed : whether it is inside, and ``speeds`` differ by at most a factor of 2
     """
@@ -159,6 +160,7 @@ class Minimum:
     coefficient: float
     interval: tuple[float, float]
     speeds: tuple[float, float]
+    interpolated_speeds: tuple[float, float]
     is_inside: bool
     is_bracketed: bool
 
@@ -280,19 +282,22 @@ class Interpolant:
         half = np.abs(f) * error
         half_of_points = np.abs(f) * np.hypot(error, np.interp(np.log(speed), np.log(solved), self.samples.numerical))
         least = int(np.nanargmin(f))
-        candidates = np.flatnonzero(~(f - half_of_points > np.nanmin(f + half_of_points)))
-        first = max(candidates[0] - 1, 0)
-        last = min(candidates[-1] + 1, speed.size - 1)
-        ends = sorted((self.sense * float(speed[first]), self.sense * float(speed[last])))
+        (first, last) = _places_of_least(f, half_of_points)
         is_inside = bool(first > 0 and last < speed.size - 1)
         return Minimum(
             speed=self.sense * float(speed[least]),
             coefficient=float(f[least]),
             interval=(float(np.nanmin(f - half)), float(np.nanmin(f + half))),
-            speeds=(ends[0], ends[1]),
+            speeds=self._ends_of(speed, (first, last)),
+            interpolated_speeds=self._ends_of(speed, _places_of_least(f, half)),
             is_inside=is_inside,
             is_bracketed=bool(is_inside and speed[last] <= WIDEST_BRACKET * speed[first]),
         )
+
+    def _ends_of(self, speed: FloatArray, places: tuple[int, int]) -> tuple[float, float]:
+        """Return (lowest, highest) of ``speed`` [m/s] at two ``places``, in the direction of the curve."""
+        (low, high) = sorted(self.sense * float(speed[place]) for place in places)
+        return low, high
 
     @cached_property
     def _other_ends(self) -> list[Interpolant]:
@@ -473,6 +478,12 @@ def knee_of(samples: Samples) -> float | None:
     if lift_off < NEAR_CONTACT * low:
         lift_off = min(BEYOND * low, float(np.sqrt(low * high)))
     return float(min(lift_off, high))
+
+
+def _places_of_least(f: FloatArray, half: FloatArray) -> tuple[int, int]:
+    """Return the (first, last) of the places between which ``f`` may be least, if it is known to ± ``half``."""
+    candidates = np.flatnonzero(~(f - half > np.nanmin(f + half)))
+    return max(int(candidates[0]) - 1, 0), min(int(candidates[-1]) + 1, f.size - 1)
 
 
 def _share_of(log_load_ratio: FloatArray, trend: FloatArray | float = 1.0) -> FloatArray:

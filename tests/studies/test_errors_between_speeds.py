@@ -156,12 +156,39 @@ def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, si
     (*least, low, high) = (sign * speed for speed in speeds)
     ends = tuple(sorted((low, high)))
     minimum = SimpleNamespace(
-        speed=(least or [0.5 * (low + high)])[0], speeds=ends, is_inside=False, is_bracketed=False
+        speed=(least or [0.5 * (low + high)])[0],
+        speeds=ends,
+        interpolated_speeds=ends,
+        is_inside=False,
+        is_bracketed=False,
     )
     curve = SimpleNamespace(speed=sign * np.array([0.05, 2.0, 5.0]), coefficient=np.ones(3), minimum=minimum)
     if sign > 0:
         assert stated in minimum_in_words(curve)
     assert {abs(float(text)) for text in re.findall(r"-?\d[\d.]*", minimum_in_words(curve))} <= {0.05, 2.0, 5.0}
+
+
+def test_a_minimum_that_is_not_reached_names_the_error_that_leaves_it_open():
+    """Far points with a numerical error of .2 %, whose last two f differ by a quarter: the error is that between them.
+    Near points with one of 10 %: it is that of the points."""
+    speeds = np.array([0.02, 0.05, 0.12, 0.3, 0.8, 2.0, 5.0])
+    contact = np.array([394.43, 386.04, 361.27, 278.01, 82.627, 0.0, 0.0])
+    columns = dict.fromkeys(("clearance", "steepness"), np.full(7, NAN))
+    columns |= {
+        "speed": speeds,
+        "contact_load": contact,
+        "film_load": 400.0 - contact,
+        "boundary_force": 0.11 * contact,
+    }
+    columns["coefficient"] = np.array([0.10849, 0.10621, 0.09964, 0.080236, 0.043262, 0.02372, 0.018543])
+    columns["film_to_roughness_ratio"] = np.array([0.534, 0.5526, 0.6116, 0.7867, 1.1973, 1.9193, 3.2154])
+    far = through(columns | {"numerical_error": np.full(7, 0.002)})
+    made = Made(0.05, 0.8).through(np.geomspace(1e-3, 0.03, 30))
+    near = Interpolant(replace(made.samples, numerical=np.full(30, 0.1)), made.lift_off)
+    for curve, error in ((far, "error of the interpolation between"), (near, "numerical errors of")):
+        solved = curve.samples.speed
+        result = SimpleNamespace(speed=solved, coefficient=np.ones(solved.size), minimum=curve.minimum())
+        assert f"m/s; by the {error} the points it may lie between" in minimum_in_words(result)
 
 
 @pytest.mark.parametrize("numerical, is_stated", [(0.19, True), (0.5, False)])
