@@ -16,7 +16,7 @@ from .describe import is_among
 from .films_in_words import LOADS, films_at_limit, note_on_touching
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, Cell, column_heading, number_cells, number_or_dash, table
 from .operating_point import operating_point_of
-from .rolling_part import heading_of_rolling, is_tabled, negative_in_words, rolling_part, without_small
+from .rolling_part import cells_of_rolling, heading_of_rolling, is_tabled, negative_in_words, rolling_part
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -43,7 +43,7 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
         ASPERITY_LOAD_RATIO,
     ]
     of_loss = converted(rolling, COLUMNS["power_loss"].unit, units["power_loss"])
-    cells_of_rolling = without_small([*map(number_or_dash, of_loss.tolist())], of_loss, shown["power_loss"])
+    of_rolling_part = cells_of_rolling(of_loss, shown["power_loss"])
     rows = []
     for index, point in enumerate(curve.points):
         place = f"{shown[swept][index]:.4g}"
@@ -63,10 +63,10 @@ def operating_table(scene: Scene, curve: CurveResult) -> str:
             float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
         )
         if has_rolling:
-            numbers.insert(OF_POINT.index("power_loss") + 1, cells_of_rolling[index])
+            numbers.insert(OF_POINT.index("power_loss") + 1, of_rolling_part[index])
         rows.append(number_cells([place, f, interval, *numbers, f"{ratio:.3g}"]))
     at_limit = films_at_limit({name: curve[name] for name in LOADS})
-    below_0 = negative_in_words(rolling, curve["power_loss"]) if has_rolling else ""
+    below_0 = negative_in_words(rolling) if has_rolling else ""
     beside = "".join(f"<p>{escape(text)}</p>" for text in (at_limit, below_0) if text)
     return f"<h2>Operating points</h2>{beside}{table(heads, rows)}"
 

@@ -131,6 +131,6 @@ def column_heading(name: str, unit: str) -> str:
     return " ".join(filter(None, (column.label, column.symbol, f"[{printed(unit)}]" if printed(unit) else "")))
 
 
-def number_or_dash(value: float) -> str:
-    """Return a number to three digits; "-" where it is not known."""
-    return plain_number(value) if math.isfinite(value) else "-"
+def number_or_dash(value: float, digits: int = 3) -> str:
+    """Return a number to so many ``digits``; "-" where it is not known."""
+    return plain_number(value, digits=digits) if math.isfinite(value) else "-"

@@ -3,13 +3,15 @@
 import numpy as np
 
 from .._base import FloatArray
-from ..units import plain_number, printed
+from ..units import printed
+from .markup import number_or_dash
 
 # Part of the power loss above which a table of points states the rolling resistance in it. A choice: below it the loss
 # follows from f, load and sliding speed to within a digit.
 TABLED_ROLLING_PART = 0.1
 
-# Part of the power loss from which the rolling resistance in it is named. A choice: what a number of two digits shows.
+# Part of the power loss from which the rolling resistance in it is named, and has three digits in a table. A choice: what a
+# number of two digits shows.
 SMALL_ROLLING_PART = 0.01
 
 # What a rolling part below 0 is.
@@ -30,19 +32,17 @@ def is_tabled(rolling: FloatArray, power_loss: FloatArray) -> bool:
     return bool((rolling > TABLED_ROLLING_PART * np.abs(power_loss)).any())
 
 
-def without_small(texts: list[str], rolling: FloatArray, power_loss: FloatArray) -> list[str]:
-    """Return the ``texts`` of cells of the ``rolling`` part, (n,), in the unit of the ``power_loss``; where it is a
-    small part of the loss, as "< 1.5", the bound of this."""
-    bounds = SMALL_ROLLING_PART * np.abs(power_loss)
-    are_small = np.abs(rolling) < bounds
-    cells = zip(texts, bounds.tolist(), are_small.tolist())
-    return [f"< {plain_number(bound, digits=2)}" if is_small else text for text, bound, is_small in cells]
+def cells_of_rolling(rolling: FloatArray, power_loss: FloatArray) -> list[str]:
+    """Return the texts of cells of the ``rolling`` part, (n,), in the unit of the ``power_loss``: to three digits, or
+    two where it is a small part of the loss; "-" where it is not known."""
+    are_small = np.abs(rolling) < SMALL_ROLLING_PART * np.abs(power_loss)
+    cells = zip(rolling.tolist(), are_small.tolist())
+    return [number_or_dash(part, 2 if is_small else 3) for part, is_small in cells]
 
 
-def negative_in_words(rolling: FloatArray, power_loss: FloatArray) -> str:
-    """Return what a ``rolling`` part below 0 is, in a sentence; "" where none is stated in a table."""
-    are_stated = rolling < -SMALL_ROLLING_PART * np.abs(power_loss)
-    return NEGATIVE_ROLLING_PART if are_stated.any() else ""
+def negative_in_words(rolling: FloatArray) -> str:
+    """Return what a ``rolling`` part below 0 is, in a sentence; "" where there is none."""
+    return NEGATIVE_ROLLING_PART if (rolling < 0).any() else ""
 
 
 def heading_of_rolling(unit: str) -> str:

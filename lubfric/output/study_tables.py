@@ -21,7 +21,7 @@ from ..units import (
     worded,
 )
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, NUMBER, Cell, number_cells, table
-from .rolling_part import heading_of_rolling, is_tabled, negative_in_words, rolling_part, without_small
+from .rolling_part import cells_of_rolling, heading_of_rolling, is_tabled, negative_in_words, rolling_part
 from .study_points import error_in_words, parts_of_error, scene_of_each
 
 # Rows of the table of a report, about; study.csv has all.
@@ -98,7 +98,7 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
         body.append(line)
     rolling = rolling_part(columns["rolling_resistance"], columns["speed"])[picked]
     loss = columns["power_loss"][picked]
-    below_0 = negative_in_words(rolling, loss) if is_tabled(rolling, loss) else ""
+    below_0 = negative_in_words(rolling) if is_tabled(rolling, loss) else ""
     return table(heads, body) + (f"<p>{escape(below_0)}</p>" if below_0 else "")
 
 
@@ -112,8 +112,7 @@ def _rolling_column(columns: dict[str, np.ndarray], picked: np.ndarray, heads: l
     si = COLUMNS["power_loss"].unit
     unit = unit_for(loss.tolist(), si)
     heads.append(heading_of_rolling(unit))
-    texts = [_cell(value, np.nan, np.nan, si, unit, CELL_DIGITS - 1) for value in rolling.tolist()]
-    return [without_small(texts, *(converted(values, si, unit) for values in (rolling, loss)))]
+    return [cells_of_rolling(*(converted(values, si, unit) for values in (rolling, loss)))]
 
 
 def _number_cell(text: str, *, is_interval: bool) -> Cell:

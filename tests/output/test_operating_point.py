@@ -88,7 +88,5 @@ def test_info_estimates_the_points_that_a_run_with_the_same_option_solves(tmp_pa
 
 
 def test_a_rolling_resistance_below_0_is_explained_where_a_table_states_it():
-    """2 % of the loss and more; what the table does not state needs no explanation."""
-    loss = np.array([1.0, 2.0])
-    assert "either sign" in negative_in_words(np.array([0.3, -0.05]), loss)
-    assert negative_in_words(np.array([0.3, -0.01]), loss) == negative_in_words(np.array([0.3, 0.0]), loss) == ""
+    assert "either sign" in negative_in_words(np.array([0.3, -0.01]))
+    assert negative_in_words(np.array([0.3, 0.0])) == ""
