@@ -55,7 +55,9 @@ GIVE_TEMPERATURE = (
     "Give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil), to include it."
 )
 # What the mean power loss of a path of contact is.
-OF_TOOTH_PAIR = "It is that of one tooth pair; for a gear, multiply it by the contact ratio."
+OF_TOOTH_PAIR = (
+    "It is that of one tooth pair; for a gear, multiply it by the contact ratio if each row has the load on one pair."
+)
 # Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
 # of a text.
 MOST_MEANS = 6

@@ -58,7 +58,7 @@ def _coverage_of_notes(result: StudyResult) -> str:
     if not known.any():
         return "no point has an interval of f that would include their effect"
     where = "" if known.all() else ", where it is known,"
-    return f"they need no action: the interval of f{where} includes their effect, or none helps"
+    return f"the interval of f{where} includes their effect, or nothing reduces it; recommendations narrow the interval"
 
 
 def warning_lines(result: StudyResult) -> list[str]:
