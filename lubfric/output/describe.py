@@ -492,7 +492,7 @@ def _model(
         rows = [_in_auto(scene, forecasts)]
     if strip:
         slow = next(model for model in models_up_to(AUTO) if model.has_slow_strips)
-        takes = f"one strip of moving roughness takes about {in_words(strip)} by the {slow.title}"
+        takes = f"one strip of moving roughness takes about {in_words(strip)} of processor time by the {slow.title}"
         longest = max(one.longest_strip_seconds for one in forecasts)
         if longest > strip:
             takes += f", and {in_words(longest)} if the error of its cells requires shorter cells"
@@ -604,10 +604,21 @@ def _speed_table(
             f"{one.strips}",
             *(f"{one.slow_strips}" for _ in chosen),
             f"{1e3 * one.length:.2g}".replace("nan", "-"),
-            f"{float(f'{one.seconds:.1g}'):g}",
+            _seconds_in_words(one),
         )
         table.append((f"{speed:.4g}", *film, *(counts if sample.is_resolved else ())))
     return table
+
+
+def _seconds_in_words(point: PointWorkEstimate) -> str:
+    """Return the processor time [s] of a ``point``, and that with shorter cells, which the error of its cells may
+    require, as text."""
+    seconds = f"{float(f'{point.seconds:.1g}'):g}"
+    more = point.longest_strip_seconds - point.slow_strip_seconds
+    if not (point.slow_strips and more > 0):
+        return seconds
+    longest = f"{float(f'{point.seconds + more:.1g}'):g}"
+    return seconds if longest == seconds else f"{seconds} ({longest} on shorter cells)"
 
 
 def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[str, ...]]:

@@ -26,6 +26,31 @@ HEAVY = lubfric.load_scene("paper").with_(
 )
 
 
+def test_each_speed_states_what_it_takes_if_its_cells_have_to_be_shorter():
+    """As the strip does: by what shorter cells add to it. A film of half Sq between rolling bodies may require them."""
+    rough = {"sq": 1.25e-7, "correlation_length": 1e-5, "acf": "gaussian"}
+    steel = {
+        "radius": 1.5e-3,
+        "width": 0.01,
+        "load": 800.0,
+        "material": "100Cr6",
+        "boundary_friction_coefficient": 0.11,
+    }
+    scene = HEAVY.with_(
+        bodies=steel | {"hertz_pressure": None},
+        motion={"slide_roll_ratio": 0.01, "entrainment_speed": 2.0, "speeds": None},
+        surface=rough,
+        counterface=rough,
+        contact={"shape": (128, 128), "spacing": 2.5e-6},
+    )
+    text = describe_scene(scene, [2.0])
+    numbers = r"takes about (\d+) s of processor time by the deterministic model, and (\d+) s if"
+    ((strip, longest),) = re.findall(numbers, text)
+    ((seconds, on_shorter),) = re.findall(r" (\d+) \((\d+) on shorter cells\)", text)
+    assert float(on_shorter) - float(seconds) == pytest.approx(float(longest) - float(strip), abs=10.0)  # one digit
+    assert "120 s of counted work (60 to 120 s of processor time, by the machine), the quick model" in text
+
+
 def test_every_input_stands_with_its_unit():
     scene = HEAVY.with_(
         lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}

@@ -15,6 +15,9 @@ GMRES_ITERATION = 1.9e-7
 # "auto" leaves a point whose first strip takes more to the quick model (docs/models.md).
 MOST_WORK_OF_POINT = 120.0
 
+# Least and largest processor time over counted work [-], about: of usual jobs on two machines (docs/measurements.md).
+USUAL_PACES = (0.5, 1.0)
+
 
 def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
     """Return the work [s] of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""

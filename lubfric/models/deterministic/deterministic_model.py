@@ -20,7 +20,7 @@ from ..shared import (
 )
 from ..work_estimate import MeasuredTime, WorkEstimate
 from .answer import answer_of
-from .counted_work import MOST_WORK_OF_POINT
+from .counted_work import MOST_WORK_OF_POINT, USUAL_PACES
 from .estimated_work import estimated_work, measured_time, why_too_costly, why_too_many_cells
 from .first_steps import first_steps
 from .heat_of_strip import too_hot_in_words, why_too_hot
@@ -105,7 +105,11 @@ class DeterministicModel(Model):
         return MOST_WORK_OF_POINT
 
     def limit_of_work_in_auto(self) -> str:
-        return f"above {MOST_WORK_OF_POINT:g} s of counted work, the quick model replaces it"
+        (least, most) = (f"{pace * MOST_WORK_OF_POINT:g}" for pace in USUAL_PACES)
+        return (
+            f"above {MOST_WORK_OF_POINT:g} s of counted work ({least} to {most} s of processor time, by the machine), the "
+            "quick model replaces it"
+        )
 
     def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
         check_resolved_gap(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)
