@@ -26,6 +26,7 @@ AT_MOST = (
 
 # These reasons in a few words, next to the budget.
 CUT_AT_LIMIT = "{} ends at the largest f by the limits of the shear stress"
+PARTS_AT_LIMIT = ", {} by sliding and {} by rolling"
 CUT_AT_ZERO = "{} begins at the smallest f that resists the sliding"
 
 RESISTS_SLIDING = "{} begins at {:.3g}: at a smaller f the sliding part would drive the sliding"
@@ -79,6 +80,8 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
 
 def _narrows_sampling(prepared: Prepared, answer: ModelAnswer) -> str:
     """Return what narrows the sampling error, as text."""
+    if answer.narrows_sampling:
+        return answer.narrows_sampling
     if prepared.sample.available_strips > answer.decision.strips:
         return SMALLER_SAMPLING_TOLERANCE
     return LARGER_MAP if prepared.has_given_map or is_measured(prepared.scene) else LARGER_PATCH
@@ -96,11 +99,12 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
         return uncertainty
     ends = max(low, -most), min(high, most)
     name = NAME_OF_INTERVAL[math.isfinite(uncertainty.sampling)]
+    parts = f"{sliding:.3g}", f"{by_rolling:.2g}"
     return replace(
         uncertainty,
         interval=ends,
-        cut=(*uncertainty.cut, CUT_AT_LIMIT.format(name)),
-        notes=(*uncertainty.notes, AT_MOST.format(name, f"{sliding:.3g}", f"{by_rolling:.2g}")),
+        cut=(*uncertainty.cut, CUT_AT_LIMIT.format(name) + PARTS_AT_LIMIT.format(*parts)),
+        notes=(*uncertainty.notes, AT_MOST.format(name, *parts)),
     )
 
 

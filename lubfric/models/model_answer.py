@@ -146,6 +146,7 @@ class ModelAnswer:
     errors : of f and of the other numbers
     accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
     narrows_numerical : what narrows ``numerical`` where it is within the tolerance, as text
+    narrows_sampling : what narrows the sampling error, as text; "": as of the sample
     rolling_ratios : the smallest and the largest that the rolling part of f may be, over its value; they bound the
         interval. Below 0: the part may have the other sign
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
@@ -168,6 +169,7 @@ class ModelAnswer:
     decision: Decision
     accepts_model_error: bool = False
     narrows_numerical: str = REDUCED_BY_TOLERANCE
+    narrows_sampling: str = ""
     rolling_ratios: tuple[float, float] = (0.0, 2.0)
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     length: float = math.nan

@@ -38,7 +38,7 @@ from lubfric.models.quick import (
     widening,
 )
 from lubfric.models.quick.calibrated_error import out_of_range
-from lubfric.models.shared import Assumption, smooth_rolling_resistance, speed_of
+from lubfric.models.shared import REDUCED_BY_DETERMINISTIC, Assumption, smooth_rolling_resistance, speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -363,18 +363,34 @@ def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
 
 
 @pytest.mark.parametrize(
-    "numerics, load, head",
-    [({}, 5.0, "note"), ({"model_tolerance": 0.04}, 5.0, "warning"), ({}, 3.0, "warning")],
+    "numerics, load, why",
+    [
+        ({}, 5.0, ""),
+        ({"model_tolerance": 0.04}, 5.0, "because the scene gives numerics.model_tolerance in place of its default"),
+        ({}, 3.0, r"because the contact is outside of the calibration \(load per width below [0-9.]+ N/m"),
+    ],
 )
-def test_the_calibrated_error_is_a_warning_outside_the_cases_and_above_a_target_of_the_user(numerics, load, head):
-    """Its size is in the interval in any case."""
+def test_the_calibrated_error_is_a_warning_outside_the_cases_and_above_a_target_of_the_user(numerics, load, why):
+    """Its size is in the interval in any case; a warning says why it is none of the usual errors."""
     limits = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06}
     bodies = {"load": load, "boundary_film": 2e-8}
     scene = LOOSE_PAPER.with_(bodies=bodies, lubricant=limits, contact=SMALL, numerics=numerics)
     result = point(scene, 0.01, "quick")
     (error,) = (each for each in result.validity if each.assumption == Assumption.MODEL_FORM_ERROR)
     low, high = result.uncertainty.interval
-    assert error.head == head and high - low > result.uncertainty.model * result.coefficient
+    assert error.head == ("warning" if why else "note") and ("no note" in error.consequence) == bool(why)
+    assert re.search(why, error.consequence)
+    assert high - low > result.uncertainty.model * result.coefficient
+
+
+def test_a_sampling_error_that_the_long_cells_leave_states_what_reduces_it():
+    """The strips are solved for at least 3 %, whatever the tolerance; a loose one is met, and nothing is stated."""
+    for tolerance, is_missed in ((0.001, True), (0.5, False)):
+        scene = LOOSE_PAPER.with_(bodies={"boundary_film": 2e-8}, contact=SMALL)
+        known = point(scene.with_(numerics={"sampling_tolerance": tolerance}), 0.01, "quick").uncertainty
+        assert known.misses_sampling_tolerance == is_missed
+        assert ("solves at most 4 strips, until" in known.text) == is_missed
+        assert (known.narrows_sampling == REDUCED_BY_DETERMINISTIC) == is_missed
 
 
 STRIP = {

@@ -101,6 +101,8 @@ def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     assert known.numerical == pytest.approx(max(known.interval[1] / f - 1, 1.0), rel=0.05) if is_cut else numerical
     if is_cut:
         (parts,) = re.findall(r"allow, ([0-9.e-]+) by sliding .* and ([0-9.e-]+) by rolling", known.text)
+        (budget,) = known.cut[:1] if "largest" in known.cut[0] else known.cut[1:]
+        assert budget.endswith(f"limits of the shear stress, {parts[0]} by sliding and {parts[1]} by rolling")
         assert sum(map(float, parts)) == pytest.approx(known.interval[1], rel=0.01)
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
+from ...units import worded
 from ..shared import Assumption, Violation, peak_hertz_pressure
 
 OUTSIDE = (
@@ -118,6 +119,11 @@ class Outside:
     unit: str
     distance: float
     is_thicker: bool = False
+
+    @property
+    def limit_in_words(self) -> str:
+        """The end of the range that is passed, with its unit."""
+        return worded(self.limit, self.unit) if self.unit else f"{self.limit:.3g}"
 
     def violation_in(self, scene: Scene) -> Violation:
         """Return what a result of ``scene``, and `lubfric info` before it, says of it: a note where the scene does not

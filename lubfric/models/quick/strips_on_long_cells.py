@@ -28,11 +28,13 @@ from ..model_answer import ModelAnswer
 from ..shared import (
     DETERMINISTIC,
     REDUCED_BY_DETERMINISTIC,
+    SAMPLING_ERROR_MISSED,
     ModelErrorPart,
     Prepared,
     Sides,
     is_smooth_over_cells,
     largest_of,
+    percent,
     sides_of_parts,
     with_divided_sliding,
 )
@@ -81,6 +83,13 @@ CELLS_IN_MODEL_ERROR = (
     "the error of the long cells (cells longer than those of the deterministic model) is in the model-form error, "
     "not in the numerical one"
 )
+SAMPLED_LESS = (
+    "the quick model {}, until the sampling error of f is small compared with the error of its long cells; "
+    "numerics.model = 'deterministic' reduces both, at a cost that 'lubfric info' estimates"
+)
+OUTSIDE_OF_CASES = "the contact is outside of the calibration ({})"
+ABOVE_USUAL = "the error of the long cells is above {}, which nine in ten of the solved cases do not exceed"
+GIVEN_TOLERANCE = "the scene gives numerics.model_tolerance in place of its default"
 BY_CELLS = "the long cells of the quick model, whose error is calibrated on {} contacts"
 
 
@@ -265,27 +274,42 @@ def _solve_pair(
     return replace(solve_moving(scene, cells, speed, target), is_mirrored=is_mirrored)
 
 
-def _is_usual(on_long_cells: StripsOnLongCells) -> bool:
-    """Return whether the error by the cells is one that solved cases have: within their range, no larger than that of
-    nine in ten, and with no target that the scene sets in place of the default."""
-    tolerance = on_long_cells.scene.numerics.model_tolerance
-    return (
-        tolerance == Numerics().model_tolerance
-        and not any(reported(on_long_cells.outside))
-        and max(on_long_cells.bounds) <= on_long_cells.error_model.usual_error
-    )
+def _why_unusual(on_long_cells: StripsOnLongCells) -> str:
+    """Return why the error by the cells is not one that solved cases have, as text: outside of their range, larger than
+    that of nine in ten, or beside a target that the scene sets in place of the default; "" if it is one."""
+    outside = [
+        f"{part.what} {'above' if part.value > part.limit else 'below'} {part.limit_in_words}"
+        for part in reported(on_long_cells.outside)
+    ]
+    if outside:
+        return OUTSIDE_OF_CASES.format(" and ".join(outside))
+    usual_error = on_long_cells.error_model.usual_error
+    if max(on_long_cells.bounds) > usual_error:
+        return ABOVE_USUAL.format(percent(usual_error))
+    is_default = on_long_cells.scene.numerics.model_tolerance == Numerics().model_tolerance
+    return "" if is_default else GIVEN_TOLERANCE
+
+
+def _is_sampled_less(prepared: Prepared, answer: ModelAnswer) -> bool:
+    """Return whether the sampling error of an ``answer`` misses its tolerance because of the target of this model
+    (`_sampling_target`), not because the map has no more strips."""
+    tolerance = prepared.scene.numerics.sampling_tolerance
+    misses = answer.errors.sampling_error.value > SAMPLING_ERROR_MISSED * tolerance
+    return misses and answer.errors.area_needed <= 1
 
 
 def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLongCells) -> ModelAnswer:
     """Return the answer of the strips ``on_long_cells`` at ``speed`` [m/s] without their bias, with its error."""
     levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers)
     answer = deterministic_answer(prepared, speed, levels)
+    why_unusual = _why_unusual(on_long_cells)
     by_cells = ModelErrorPart(
         sides=on_long_cells.bounds,
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
         reduced_by_model=DETERMINISTIC,
-        is_usual=_is_usual(on_long_cells),
+        is_usual=not why_unusual,
+        why_unusual=why_unusual,
     )
     parts = (by_cells, *answer.errors.parts_of_model)
     cases = on_long_cells.error_model.cases
@@ -293,13 +317,20 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     fields = answer.fields
     if fields is not None:
         fields = replace(fields, solve=f"quick model (long cells): {fields.solve}")
+    is_sampled_less = _is_sampled_less(prepared, answer)
+    strips = "follows one strip" if has_moving_roughness(prepared.scene) else f"solves at most {MOST_STRIPS} strips"
     return replace(
         answer,
         fields=fields,
+        narrows_sampling=REDUCED_BY_DETERMINISTIC if is_sampled_less else "",
         errors=replace(
             answer.errors,
             model_error=sides_of_parts(parts).capped(),
-            notes=(*answer.errors.notes, CELLS_IN_MODEL_ERROR),
+            notes=(
+                *answer.errors.notes,
+                *((SAMPLED_LESS.format(strips),) if is_sampled_less else ()),
+                CELLS_IN_MODEL_ERROR,
+            ),
             parts_of_model=parts,
         ),
         violations=(

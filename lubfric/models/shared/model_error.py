@@ -18,6 +18,7 @@ LARGEST_PART = "its largest part is {}"
 IN_INTERVAL = "the interval of f, where it is known, includes it"
 READ_INTERVAL = "use f with its interval"
 UNUSUAL_PARTS = "the parts that are not usual for this model make {} alone"
+WHY_A_WARNING = "this is a warning and no note, because {}"
 OTHER_PARTS = "{}; without that part the model-form error is {}"
 
 
@@ -34,6 +35,7 @@ class ModelErrorPart:
     reduced_by_model : name of the model that the ``recommendation`` names; "": of none
     is_usual : whether it is usual for the model that answers (docs/models.md), so that a note reports it instead of a
         warning
+    why_unusual : why it is not usual for a model that has a usual error, as text; "": the model has none
     """
 
     sides: tuple[float, float]
@@ -42,6 +44,7 @@ class ModelErrorPart:
     reduced_by_model: str = ""
     is_of_input: bool = False
     is_usual: bool = False
+    why_unusual: str = ""
 
     @property
     def error(self) -> float:
@@ -95,6 +98,8 @@ def violations_by_model_error(
     is_note = len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance
     if largest is not None and largest.is_usual and not is_note:
         consequence += f"; {UNUSUAL_PARTS.format(percent(error_of_parts(unusual)))}"
+    if largest is not None and largest.why_unusual:
+        consequence += f"; {WHY_A_WARNING.format(largest.why_unusual)}"
     yield Violation(
         assumption=Assumption.MODEL_FORM_ERROR,
         what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
