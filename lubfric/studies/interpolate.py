@@ -168,12 +168,15 @@ class Minimum:
 @dataclass(frozen=True)
 class Interpolant:
     """f between the speeds of ``samples``. ``lift_off`` [m/s]: where the contact ends (None: not in the range); its
-    share falls there as the power ``end`` of 1 - U/lift_off. ``sense``: the sign of the speeds that were solved."""
+    share falls there as the power ``end`` of 1 - U/lift_off, where an extrapolation of the film shows that place, or
+    ``ends_there`` assumes it; else both parts of f pass it without a knee. ``sense``: the sign of the speeds that were
+    solved."""
 
     samples: Samples
     lift_off: float | None
     end: float = HERTZ
     sense: float = 1.0
+    ends_there: bool = False
 
     @property
     def range(self) -> tuple[float, float]:
@@ -214,6 +217,12 @@ class Interpolant:
         around it, because the clearance of the film is not known."""
         s = self.samples
         return bool(np.isfinite(s.clearance[s.contacts]))
+
+    @property
+    def _end_of_contact(self) -> float | None:
+        """Lift-off [m/s], if the contact ends there in the interpolation; else None."""
+        has_knee = self.lift_off is not None and (self.ends_there or self._is_lift_off_extrapolated)
+        return self.lift_off if has_knee else None
 
     @property
     def lifted(self) -> float:
@@ -314,8 +323,8 @@ class Interpolant:
         extrapolated = (self.lift_off * (end / self.lift_off) ** part for end in (low, high))
         places = {*self._extrapolated_range, *(min(max(place, least), most) for place in extrapolated)}
         within = [place for place in places if s.speed[s.contacts - 1] < place != self.lift_off]
-        others = [replace(self, lift_off=place) for place in within]
-        return others + [replace(self, end=power) for power in OTHER_POWERS]
+        others = [replace(self, lift_off=place, ends_there=True) for place in within]
+        return others + [replace(self, end=power, ends_there=True) for power in OTHER_POWERS]
 
     @cached_property
     def _changes_without_points(self) -> np.ndarray:
@@ -389,7 +398,7 @@ class Interpolant:
             return np.full(speed.shape, float(s.contacts > 0))
         log_load_ratio = np.log(1 / s.share[known] - 1)
         load_ratio = np.zeros(speed.shape)
-        end = self.lift_off
+        end = self._end_of_contact
         if end is None:
             return _share_of(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth))
         below = speed < end
@@ -410,7 +419,7 @@ class Interpolant:
         """Return the traction coefficient of the film."""
         s = self.samples
         k = self.samples.contacts
-        knee = self.lift_off
+        knee = self._end_of_contact
         known = np.flatnonzero(1 - s.share >= LITTLE)
         known = known if known.size else np.array([s.speed.size - 1])
         y = s.speed[known]

@@ -168,27 +168,42 @@ def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, si
     assert {abs(float(text)) for text in re.findall(r"-?\d[\d.]*", minimum_in_words(curve))} <= {0.05, 2.0, 5.0}
 
 
+def roller_of_far_speeds():
+    """The curve through seven points of a steel roller by the quick model, whose film is not extrapolated."""
+    load = np.array([394.4288, 386.0409, 361.2691, 278.0139, 82.6266, 0.0, 0.0])
+    numbers = {
+        "speed": np.array([0.02, 0.05, 0.12, 0.3, 0.8, 2.0, 5.0]),
+        "coefficient": np.array([0.1084948, 0.1062106, 0.0996408, 0.0802359, 0.0432624, 0.0237202, 0.0185431]),
+        "contact_load": load,
+        "film_load": 400.0 - load,
+        "boundary_force": 0.11 * load,
+        "film_to_roughness_ratio": np.array([0.53403, 0.55256, 0.61163, 0.7867, 1.19728, 1.91931, 3.2154]),
+        "clearance": np.full(7, NAN),
+        "steepness": np.full(7, NAN),
+        "numerical_error": np.full(7, 0.002),
+    }
+    return through(numbers)
+
+
 def test_a_minimum_that_is_not_reached_names_the_error_that_leaves_it_open():
     """Far points with a numerical error of .2 %, whose last two f differ by a quarter: the error is that between them.
     Near points with one of 10 %: it is that of the points."""
-    speeds = np.array([0.02, 0.05, 0.12, 0.3, 0.8, 2.0, 5.0])
-    contact = np.array([394.43, 386.04, 361.27, 278.01, 82.627, 0.0, 0.0])
-    columns = dict.fromkeys(("clearance", "steepness"), np.full(7, NAN))
-    columns |= {
-        "speed": speeds,
-        "contact_load": contact,
-        "film_load": 400.0 - contact,
-        "boundary_force": 0.11 * contact,
-    }
-    columns["coefficient"] = np.array([0.10849, 0.10621, 0.09964, 0.080236, 0.043262, 0.02372, 0.018543])
-    columns["film_to_roughness_ratio"] = np.array([0.534, 0.5526, 0.6116, 0.7867, 1.1973, 1.9193, 3.2154])
-    far = through(columns | {"numerical_error": np.full(7, 0.002)})
     made = Made(0.05, 0.8).through(np.geomspace(1e-3, 0.03, 30))
     near = Interpolant(replace(made.samples, numerical=np.full(30, 0.1)), made.lift_off)
+    far = roller_of_far_speeds()
     for curve, error in ((far, "error of the interpolation between"), (near, "numerical errors of")):
         solved = curve.samples.speed
         result = SimpleNamespace(speed=solved, coefficient=np.ones(solved.size), minimum=curve.minimum())
         assert f"m/s; by the {error} the points it may lie between" in minimum_in_words(result)
+
+
+def test_where_lift_off_is_not_known_f_has_no_knee_in_the_middle_of_the_speeds_around_it():
+    """f was solved between the points too; with a knee at 1.26 m/s, the middle, the curve is 10, 16 and 6 % below f."""
+    curve = roller_of_far_speeds()
+    between = np.array([0.5, 1.0, 1.26, 1.6, 3.0])
+    solved = np.array([0.06117, 0.03645, 0.03026, 0.02621, 0.02097])
+    assert curve.at(between) == pytest.approx(solved, rel=0.05)
+    assert np.all(np.abs(curve.at(between) - solved) <= curve.error(between) * solved)
 
 
 @pytest.mark.parametrize("numerical, is_stated", [(0.19, True), (0.5, False)])
