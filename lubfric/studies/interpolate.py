@@ -168,15 +168,13 @@ class Minimum:
 @dataclass(frozen=True)
 class Interpolant:
     """f between the speeds of ``samples``. ``lift_off`` [m/s]: where the contact ends (None: not in the range); its
-    share falls there as the power ``end`` of 1 - U/lift_off, where an extrapolation of the film shows that place, or
-    ``ends_there`` assumes it; else both parts of f pass it without a knee. ``sense``: the sign of the speeds that were
-    solved."""
+    share falls there as the power ``end`` of 1 - U/lift_off (None: as `HERTZ` where an extrapolation of the film shows
+    that place; elsewhere both parts of f pass it without a knee). ``sense``: the sign of the speeds that were solved."""
 
     samples: Samples
     lift_off: float | None
-    end: float = HERTZ
+    end: float | None = None
     sense: float = 1.0
-    ends_there: bool = False
 
     @property
     def range(self) -> tuple[float, float]:
@@ -221,7 +219,7 @@ class Interpolant:
     @property
     def _end_of_contact(self) -> float | None:
         """Lift-off [m/s], if the contact ends there in the interpolation; else None."""
-        has_knee = self.lift_off is not None and (self.ends_there or self._is_lift_off_extrapolated)
+        has_knee = self.lift_off is not None and (self.end is not None or self._is_lift_off_extrapolated)
         return self.lift_off if has_knee else None
 
     @property
@@ -323,8 +321,8 @@ class Interpolant:
         extrapolated = (self.lift_off * (end / self.lift_off) ** part for end in (low, high))
         places = {*self._extrapolated_range, *(min(max(place, least), most) for place in extrapolated)}
         within = [place for place in places if s.speed[s.contacts - 1] < place != self.lift_off]
-        others = [replace(self, lift_off=place, ends_there=True) for place in within]
-        return others + [replace(self, end=power, ends_there=True) for power in OTHER_POWERS]
+        others = [replace(self, lift_off=place, end=HERTZ) for place in within]
+        return others + [replace(self, end=power) for power in OTHER_POWERS]
 
     @cached_property
     def _changes_without_points(self) -> np.ndarray:
@@ -401,18 +399,19 @@ class Interpolant:
         end = self._end_of_contact
         if end is None:
             return _share_of(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth))
+        power = HERTZ if self.end is None else self.end
         below = speed < end
         y = s.speed[known] / end
         there = speed[below] / end
-        rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (LOAD_RATIO_POWER * y**LOAD_RATIO_POWER)
+        rate = (s.steepness[known] - 1 - power * y / (1 - y)) / (LOAD_RATIO_POWER * y**LOAD_RATIO_POWER)
         left = _steered(
             y**LOAD_RATIO_POWER,
-            log_load_ratio - np.log(y) + self.end * np.log1p(-y),
+            log_load_ratio - np.log(y) + power * np.log1p(-y),
             rate,
             there**LOAD_RATIO_POWER,
             smooth=smooth,
         )
-        load_ratio[below] = _share_of(left, there / (1 - there) ** self.end)
+        load_ratio[below] = _share_of(left, there / (1 - there) ** power)
         return load_ratio
 
     def traction(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
