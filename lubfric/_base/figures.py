@@ -19,7 +19,6 @@ from ..units import converted, printed, unit_for
 from .arrays import FloatArray
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.axes._base import _AxesBase
     from matplotlib.axis import Axis
@@ -52,6 +51,7 @@ ASPERITY_FRICTION = "asperity friction"
 FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
 POINTS_IN_INCH = 72.0  # pt, by definition
+TICKS_OF_NARROW_BAR = 2  # intervals of such a bar in a narrow picture; a choice: numbers of three digits stay apart
 TICKS_OF_BAR = 4  # of a short bar of colours, about; a choice, by looking at pictures of 85 mm
 NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
 INTERPOLATED_BETWEEN = "interpolated"  # of a dashed line between points
@@ -245,17 +245,6 @@ def speed_label(speed: np.ndarray) -> str:
     return f"entrainment speed $|U|$ (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
-def shift_right(axes: Axes, artists: Iterable[Artist], distance: float) -> None:
-    """Draw ``artists`` of ``axes`` so far to the right of their places [pt], whatever the scale of the axis."""
-    from matplotlib.transforms import ScaledTranslation
-
-    figure = axes.get_figure()
-    assert figure is not None
-    shift = ScaledTranslation(distance / POINTS_IN_INCH, 0.0, figure.dpi_scale_trans)
-    for artist in artists:
-        artist.set_transform(axes.transData + shift)
-
-
 def key_above(axes: Axes, columns: int = 3) -> int:
     """Put the key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has
     room for, with each label once; returns the number of its lines of text."""
@@ -446,7 +435,9 @@ def _ticks_to_the_end(image: AxesImage, bar: Any) -> None:
 
     (low, high) = image.get_clim()
     if not isinstance(image.norm, LogNorm):
-        ticks = MaxNLocator(TICKS_OF_BAR, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3).tick_values(low, high)
+        figure = bar.ax.get_figure(root=True)
+        count = TICKS_OF_NARROW_BAR if figure.get_figwidth() <= NARROW_FIGURE else TICKS_OF_BAR
+        ticks = MaxNLocator(count, steps=[1, 2, 2.5, 5, 10], min_n_ticks=min(3, count)).tick_values(low, high)
         image.set_clim(min(low, ticks[0]) if low < 0 else low, ticks[-1])
         bar.set_ticks([tick for tick in ticks if tick >= low])
     elif high > 100.0 * low:

@@ -113,6 +113,15 @@ def record_of_point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
     return {number: getattr(point, number) for number in NUMBERS} | swept | more
 
 
+def violations_of_record(points: list[dict[str, Any]]) -> list[list[Violation]]:
+    """Return the assumptions that are violated at each of the ``points`` of a record."""
+    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
+    known = [
+        [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
+    ]
+    return [[Violation(**unknown | violation) for violation in each] for each in known]
+
+
 def draw_curve(
     path: Path,
     columns: Columns,
@@ -124,11 +133,7 @@ def draw_curve(
 ) -> None:
     """Draw the picture of the table of a curve; ``points``: those of its record; ``operating_point``: the scene's own
     speed [m/s] or slide-roll ratio."""
-    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
-    known = [
-        [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
-    ]
-    violations = [[Violation(**unknown | violation) for violation in each] for each in known]
+    violations = violations_of_record(points)
     title = figures.plain_words(title)
     if "ratio" in columns:
         (first, *others) = title.splitlines()

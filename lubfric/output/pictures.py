@@ -305,6 +305,20 @@ def _mark(
 ) -> None:
     """Ring the points with a warning, and cross out those at which f is meaningless. The text below says which
     assumptions are violated there. Then the key of all lines."""
+    ring_points(axes, speed, coefficient, violations, options)
+    _list_assumptions(figure, _shown_violations(violations, options))
+    figures.key_above(axes)
+
+
+def ring_points(
+    axes: Axes,
+    x: FloatArray,
+    coefficient: FloatArray,
+    violations: list[Sequence[Any]],
+    options: PictureOptions,
+) -> None:
+    """Ring the points at ``x`` with a warning among their ``violations``, and cross out those at which f is
+    meaningless."""
     violations = _shown_violations(violations, options)
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
@@ -313,9 +327,7 @@ def _mark(
         (severe, "x", figures.RED, "outside the model (accepted)"),
     ):
         if chosen.any():
-            axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    _list_assumptions(figure, violations)
-    figures.key_above(axes)
+            axes.plot(x[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
 
 
 def _shown_violations(violations: list[Sequence[Any]], options: PictureOptions) -> list[Sequence[Any]]:

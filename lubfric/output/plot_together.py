@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +15,9 @@ from .. import studies
 from .._base import figures, read_table, validate
 from ..errors import InputError
 from .commands import read_record
-from .curve_picture import drawable
+from .curve_picture import drawable, points_of_record, violations_of_record
 from .picture_options import PictureOptions
-from .pictures import traction_over_ratio
+from .pictures import ring_points, traction_over_ratio
 from .plot_again import TABLES, measured_of, picture_options, plot_again, write_picture
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def plot(arguments: Namespace) -> None:
     draw = partial(
         plot_curves,
         curves=dict(zip(labels or names, (columns for _, columns in curves))),
+        violations=[_violations(folder, kind) for folder in arguments.folder],
         options=picture_options(of_first, kind),
         measured=measured_of(of_first, kind),
     )
@@ -100,15 +101,25 @@ def _curve(folder: Path, kind: str) -> tuple[str, Columns]:
     return read_record(folder)["scene"]["name"], chosen
 
 
+def _violations(folder: Path, kind: str) -> list[Sequence[Any]]:
+    """Return the assumptions that are violated at each of the points that `_curve` returns of a ``folder``."""
+    table = folder / f"{kind}.csv"
+    columns = read_table(table)
+    violated = violations_of_record(points_of_record(table, columns, read_record(folder)))
+    rows = np.flatnonzero(drawable(columns))
+    return [violated[row] for row in rows[np.argsort(columns[OVER_OF_CURVE[kind]][rows])]]
+
+
 @figures.styled
 def plot_curves(
     path: Path,
     curves: dict[str, Columns],
+    violations: list[list[Sequence[Any]]],
     measured: studies.Measured | None = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
     """Draw friction over the speed, or the slide-roll ratio, of several ``curves``, by their names, with what was
-    ``measured``, without its parts."""
+    ``measured``, without its parts. ``violations``: of each curve, the assumptions that are violated at each point."""
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
     shown = replace(options, without=(*OF_ONE_CURVE, *options.without), has_parts=False)
@@ -121,6 +132,10 @@ def plot_curves(
             studies.draw_curve(
                 axes, columns, name, name, interval="bars" if options.has_bars else "band", without=shown.without
             )
+    for columns, violated in zip(curves.values(), violations):
+        x = columns["ratio"] if "ratio" in columns else np.abs(columns["speed"])
+        ring_points(axes, x, columns["coefficient"], violated, options)
+    figures.key_above(axes)
     ratios = np.concatenate([columns.get("ratio", []) for columns in curves.values()])
     if ratios.size:
         axes.set_xlabel("slide-roll ratio (-)")

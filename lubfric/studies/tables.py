@@ -34,9 +34,6 @@ OF_INTERVAL = (("model_error", "--"), ("sampling_error", ":"))
 
 BAND = "95 % interval"
 
-# Distance of the bars of curves on the same axes at the same speed [pt]. A choice, by looking at the figures: caps are
-# 5 pt wide.
-BAR_DISTANCE = 4.0
 
 # Opacity of a band of intervals. A choice, by looking at the figures.
 BAND_ALPHA = 0.2
@@ -257,7 +254,7 @@ def interval_band(
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
     the model and the finite surface leave by themselves, unless not ``has_parts``; ``as_bars``: as a bar at each point
     instead. ``line``: (speeds, f) of a smooth curve to draw the band about. ``color``: of all of it. ``others``: number
-    of curves on the axes already, beside whose bars those of this one are; all bands have edges then.
+    of curves on the axes already; all bands have edges then.
     Returns the thin lines."""
     from matplotlib.colors import to_rgba
 
@@ -286,10 +283,7 @@ def interval_band(
         band += ", model-form error where known"
     if as_bars:
         lengths = f - columns["interval_low"], columns["interval_high"] - f
-        bars = ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
-        if others:
-            direction = 1 if others % 2 else -1
-            figures.shift_right(ax, bars.get_children(), direction * BAR_DISTANCE * ((others + 1) // 2))
+        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
         return []
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
@@ -358,6 +352,8 @@ def friction_over_speed(
         of_points: dict[str, Any] = {}
         if error > DRAWN_ERROR:
             of_points |= {} if "label" in style else {"label": figures.FRICTION_COEFFICIENT}
+            if "label" in style and not {"ls", "linestyle"} & set(style):
+                axes.plot([], [], ls="--", color=figures.GREY, label=figures.INTERPOLATED_BETWEEN)
             style = {"label": figures.INTERPOLATED_BETWEEN, "ls": "--"} | style
         (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=color, **of_points)

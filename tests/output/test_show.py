@@ -1,5 +1,6 @@
 """Results for eyes: one line each, tables, axes that hold the numbers; scenes as dicts and as text."""
 
+import json
 import tomllib
 from dataclasses import replace
 from html import unescape
@@ -107,8 +108,8 @@ def test_curves_on_the_same_axes_differ_and_are_named_once(curve):
     assert curve.coefficient.max() < ax.get_ylim()[1] and ax.get_ylim()[0] == 0.0
 
 
-def test_bars_of_curves_on_the_same_axes_are_beside_each_other():
-    """At one speed on the screen, in points of an inch; markers stay at their speed."""
+def test_bars_of_curves_on_the_same_axes_are_at_their_points():
+    """On the screen: a bar beside its marker would have been that of another speed."""
     speeds = np.array([0.01, 0.1])
     columns = {name: np.ones(2) for name in (*NUMBERS, "model_error")}
     columns |= {"speed": speeds, "coefficient": np.array([0.1, 0.1]), "contact_load": np.ones(2)}
@@ -116,14 +117,12 @@ def test_bars_of_curves_on_the_same_axes_are_beside_each_other():
     ax = axes()
     for name in ("one", "two", "three"):
         draw_curve(ax, columns, name, interval="bars")
-    places = []
+    at_points = ax.transData.transform(np.stack([speeds, [0.1, 0.1]], axis=1))[:, 0]
+    assert len(ax.containers) == 3
     for bars in ax.containers:
         (upper, *_) = bars.lines[1]
-        places.append(upper.get_transform().transform(upper.get_xydata())[:, 0] * 72 / ax.figure.dpi)
-        np.testing.assert_allclose(upper.get_xdata(), speeds)
-    (first, *others) = places
-    assert [float(np.ptp(other - first)) for other in others] == pytest.approx([0.0, 0.0], abs=1e-9)
-    assert [float((other - first)[0]) for other in others] == pytest.approx([4.0, -4.0])
+        on_screen = upper.get_transform().transform(upper.get_xydata())[:, 0]
+        np.testing.assert_allclose(on_screen, at_points)
 
 
 def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
@@ -147,13 +146,26 @@ def test_a_line_has_the_requested_style_however_well_f_is_known_between_points(c
     assert error > 0.5 or line.get_linewidth() == 3.0
 
 
+@pytest.mark.parametrize("width, ticks", [(85, [0, 200, 400]), (170, [0, 100, 200, 300, 400])])
+def test_numbers_of_three_digits_stay_apart_beside_a_narrow_map(width, ticks):
+    figure = Figure(figsize=(width / 25.4, 2.0))
+    x = np.array([0.0, 1e-6])
+    figures.field_image(figure.subplots(), x, x, np.array([[0.0, 383.0], [1.0, 2.0]]), "cividis", "shear", place="top")
+    (_, bar) = figure.axes
+    assert bar.get_xticks().tolist() == ticks
+
+
 def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkeypatch, capsys):
     saved = []
     monkeypatch.setattr(Figure, "savefig", lambda figure, path: (saved.append(figure), path.write_bytes(b"")))
     for name, solved in (("a", curve), ("b", replace(curve, points=curve.points[:2], speed=curve.speed[:2]))):
         (tmp_path / name).mkdir()
         solved.to_csv(tmp_path / name / "stribeck.csv")
-        (tmp_path / name / "result.json").write_text('{"scene": {"name": "roller"}, "points": []}')
+        points = [{"validity": []} for _ in solved.speed]
+        words = dict.fromkeys(("what", "consequence", "recommendation"), "film") | {"unit": "-"}
+        points[1] = {"validity": [words | {"value": 2.0, "limit": 1.0, "severe": False}]}
+        record = {"scene": {"name": "roller"}, "points": points}
+        (tmp_path / name / "result.json").write_text(json.dumps(record))
     both = ["plot", str(tmp_path / "a"), str(tmp_path / "b")]
     assert main([*both, "--without", "asperity-friction"]) == 0
     assert (tmp_path / "a" / "stribeck_together.png").is_file()
@@ -162,6 +174,8 @@ def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkey
     np.testing.assert_allclose(solved["a"], np.stack([curve.speed, curve.coefficient], axis=1))
     np.testing.assert_allclose(solved["b"], solved["a"][:2])
     assert "asperity friction" not in solved
+    rings = [line.get_xydata() for line in drawn.lines if line.get_label() == "with warnings"]
+    np.testing.assert_allclose(rings, np.tile([[curve.speed[1], curve.coefficient[1]]], (2, 1, 1)))
     assert main([*both, "--labels", "ground, honed", "--width", "84 mm"]) == 0
     assert {"ground", "honed"} <= set(lines(saved[1].axes[0]))
     for more, words in (
@@ -181,7 +195,8 @@ def test_traction_curves_of_several_runs_are_drawn_in_one_picture(tmp_path, monk
     heads += ",contact_load [N],film_load [N],boundary_force [N],shear_force [N]"
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
-        (tmp_path / name / "result.json").write_text(f'{{"scene": {{"name": "{name}"}}, "points": []}}')
+        record = {"scene": {"name": name}, "points": [{"validity": []}] * 3}
+        (tmp_path / name / "result.json").write_text(json.dumps(record))
         rows = [f"{s},1,{f},{0.9 * f},{1.1 * f},1,1,1,1" for s, f in ((0.2, 0.05), (0.1, 0.045), (0.3, 0.055))]
         (tmp_path / name / "traction.csv").write_text("\n".join([heads, *rows]) + "\n")
     both = ["plot", str(tmp_path / "a"), str(tmp_path / "b")]
