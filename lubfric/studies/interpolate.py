@@ -168,8 +168,8 @@ class Minimum:
 @dataclass(frozen=True)
 class Interpolant:
     """f between the speeds of ``samples``. ``lift_off`` [m/s]: where the contact ends (None: not in the range); its
-    share falls there as the power ``end`` of 1 - U/lift_off (None: as `HERTZ` where an extrapolation of the film shows
-    that place; elsewhere both parts of f pass it without a knee). ``sense``: the sign of the speeds that were solved."""
+    share falls there as the power ``end`` of 1 - U/lift_off (None: as `HERTZ`, and only at the next solved speed if no
+    extrapolation of the film shows lift-off). ``sense``: the sign of the speeds that were solved."""
 
     samples: Samples
     lift_off: float | None
@@ -218,9 +218,11 @@ class Interpolant:
 
     @property
     def _end_of_contact(self) -> float | None:
-        """Lift-off [m/s], if the contact ends there in the interpolation; else None."""
-        has_knee = self.lift_off is not None and (self.end is not None or self._is_lift_off_extrapolated)
-        return self.lift_off if has_knee else None
+        """The speed [m/s] at which the contact ends in the interpolation: lift-off, or where that is only known to lie
+        between two solved speeds the faster one, where both parts of f pass without a knee; None without a lift-off."""
+        if self.lift_off is None or self.end is not None or self._is_lift_off_extrapolated:
+            return self.lift_off
+        return self.bracket[1]
 
     @property
     def lifted(self) -> float:

@@ -204,6 +204,8 @@ def test_where_lift_off_is_not_known_f_has_no_knee_in_the_middle_of_the_speeds_a
     between = np.array([0.5, 1.0, 1.26, 1.6, 3.0])
     solved = np.array([0.06117, 0.03645, 0.03026, 0.02621, 0.02097])
     assert curve.at(between) == pytest.approx(solved, rel=0.05)
+    every = np.geomspace(0.02, 5.0, 200)
+    assert np.all(curve.boundary(every) >= 0.0) and np.all(curve.boundary(every[every >= 2.0]) == 0.0)
     assert np.all(np.abs(curve.at(between) - solved) <= curve.error(between) * solved)
 
 
