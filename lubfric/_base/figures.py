@@ -73,6 +73,9 @@ FLUID_DASHES = (0, (4, 1.5, 1, 1.5))  # of that from the film, which differs wit
 NARROW_FIGURE = 4.5  # inch: a figure up to this width has small letters in its keys
 SMALL_KEY_SIZE = 6.0  # pt: of these letters
 WIDE_MAP = 0.6  # height over width of a map below which the label of its short side has one word
+ROOM_BESIDE_MAP = 1.7  # inch: of its labels and its bar of colours
+ROOM_ABOVE_MAP = 0.8  # inch: of its title and the labels below it
+NARROWEST_MAP = 3.5  # inch: a figure with a map; a choice: its title keeps its line
 SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
@@ -443,6 +446,18 @@ def _ticks_to_the_end(image: AxesImage, bar: Any) -> None:
     elif high > 100.0 * low:
         decades = LogLocator(numticks=2 * TICKS_OF_BAR).tick_values(low, high)
         bar.set_ticks([decade for decade in decades if low <= decade <= high])
+
+
+def narrow_to_map(axes: Axes) -> None:
+    """Make the figure of these ``axes`` as wide as their map with its labels needs, if it is to scale."""
+    figure = axes.get_figure(root=True)
+    if figure is None or axes.get_aspect() == "auto":
+        return
+    (left, right) = axes.get_xlim()
+    (low, high) = axes.get_ylim()
+    (widest, height) = figure.get_size_inches()
+    width = ROOM_BESIDE_MAP + (height - ROOM_ABOVE_MAP) * (right - left) / (high - low)
+    figure.set_size_inches(min(max(width, NARROWEST_MAP), widest), height)
 
 
 def field_image(

@@ -159,7 +159,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)) -> "Axes":
         """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line, and the edges of the
-        Hertz strip, dashed; returns the axes. Needs ``fields=True``, and contact."""
+        Hertz strip, dashed; returns the axes. Needs ``fields=True``, and contact. The load ratio above is that of the
+        point, a mean over strips and moments, of which one is drawn."""
         axes = figures.axes_or_new(ax)
         fields = self._fields_with("pressure")
         pressure, unit = figures.in_unit_for(fields.pressure[:, rows], "Pa")
@@ -168,7 +169,9 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         )
         figures.hertz_strip(axes, fields.half_width)
         share = self.contact_load / (self.contact_load + self.film_load)
-        axes.set_title(f"U = {self.speed:.4g} m/s, $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
+        axes.set_title(f"U = {self.speed:.4g} m/s, mean $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
+        if ax is None:
+            figures.narrow_to_map(axes)
         return axes
 
     def _field(self, name: str) -> np.ndarray:

@@ -6,6 +6,7 @@ import io
 import json
 from types import SimpleNamespace
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -506,6 +507,16 @@ def test_the_picture_of_a_contact_in_python_has_the_hertz_strip_too(solved):
     dashed = sorted(line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == "--")
     half = 1e6 * np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
     assert dashed == pytest.approx([-half, half])
+
+
+def test_the_picture_of_a_contact_in_python_has_no_empty_sides(solved):
+    """A figure of its own is as wide as the map to scale needs."""
+    axes = solved[1].plot_contact()
+    figure = axes.get_figure()
+    figure.canvas.draw()
+    box = axes.get_tightbbox()
+    assert box.x0 < 0.12 * figure.bbox.width
+    plt.close(figure)
 
 
 @pytest.fixture
