@@ -14,7 +14,7 @@ from ..quantities import worded_value
 from ..scene import Scene, refuse_far_value
 from ..units import check_all_have_units
 from .points import SPEED
-from .vary import FITTED, Between, check_key, check_temperature, unit_of
+from .vary import FITTED, Between, check_key, check_temperature, check_viscosity, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -265,6 +265,7 @@ def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))
+    check_viscosity(scene, [set(bounds)])
     parameters: dict[str, Between] = {}
     for key, pair in bounds.items():
         check_key("parameters", scene, key, parameters, FITTED)

@@ -26,7 +26,17 @@ from .operating_points import ENTRAINMENT, POINT, operating_points
 from .points import SPEED, scene_key
 from .store import digest
 from .study_file import DRAWN_BEFORE, study_toml
-from .vary import VARIED_SLIDING, Axis, Between, axes_of, check_viscosity, notes_of_sliding, sample, unit_of
+from .vary import (
+    VARIED_SLIDING,
+    Axis,
+    Between,
+    axes_of,
+    check_viscosity,
+    names_varied,
+    notes_of_sliding,
+    sample,
+    unit_of,
+)
 
 STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample", DRAWN_BEFORE)
 # Sections by which a scene is told from a study file.
@@ -183,7 +193,7 @@ def plan_study(
     axes = axes_of(scene, {} if vary is None else vary)
     notes = tuple(notes_of_sliding({} if vary is None else vary))
     if points is None:
-        check_viscosity(scene, axes)
+        check_viscosity(scene, names_varied(axes))
         return StudyPlan(
             scene=scene,
             axes=axes,
@@ -201,7 +211,7 @@ def plan_study(
     most = math.prod(len(axis.values) for axis in (*axes, table.axis))
     validate.integer("points of the study", most, minimum=1, maximum=1_000_000)
     axes = (*axes, table.axis)
-    check_viscosity(scene, axes)
+    check_viscosity(scene, names_varied(axes))
     return StudyPlan(
         scene=scene,
         axes=axes,

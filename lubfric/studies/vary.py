@@ -237,11 +237,16 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
         )
 
 
-def check_viscosity(scene: Scene, axes: Iterable[Axis]) -> None:
-    """Raise `InputError` for ``axes`` that put a viscosity in place of the oil of the scene while its pressure-viscosity
-    coefficient, an estimate from that oil, would stay what it is."""
+def names_varied(axes: Iterable[Axis]) -> list[set[str]]:
+    """Return the keys that each point of each of ``axes`` states, those in a whole section too, by "section.key"."""
+    return [_names_in(axis.at(index)) for axis in axes for index in range(len(axis.values))]
+
+
+def check_viscosity(scene: Scene, varied: Iterable[set[str]]) -> None:
+    """Raise `InputError` for ``varied`` keys that put a viscosity in place of the oil of the scene while its
+    pressure-viscosity coefficient, an estimate from that oil, would stay what it is."""
+    rows = list(varied)
     oil = scene.lubricant.oil
-    rows = [_names_in(axis.at(index)) for axis in axes for index in range(len(axis.values))]
     is_given = oil is None or oil.alpha is not None or any(PRESSURE_VISCOSITY in names for names in rows)
     if is_given or not any(VISCOSITY in names and "lubricant.oil" not in names for names in rows):
         return

@@ -70,6 +70,13 @@ def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three():
         lubfric.explain_fit(SCENE, measured, {"numerics.tolerance": (0.01, 0.1)})
 
 
+def test_a_viscosity_in_place_of_an_oil_is_refused_without_its_pressure_viscosity_coefficient():
+    """The coefficient, an estimate from the oil, would stay that of another viscosity."""
+    oil = SCENE.with_(lubricant={"viscosity": None, "nu40": 1e-4, "viscosity_index": 95, "temperature": 313.15})
+    with pytest.raises(lubfric.InputError, match="the viscosity of the scene comes from an oil"):
+        lubfric.fit(oil, lubfric.Measured(SPEEDS, np.full(SPEEDS.size, 0.1)), {"lubricant.viscosity": (0.05, 1.0)})
+
+
 def hertz_and_eyring(slips, alpha, stress, viscosity=0.05, speed=2.0, radius=0.01, modulus=2.3e11, peak=1e9):
     """Traction of a Barus oil with the Eyring law under the pressure of Hertz, with the central film of Dowson and
     Toyoda: a closed form, but for an integral over the angle."""
