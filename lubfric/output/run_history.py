@@ -153,6 +153,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
     names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
     failure: LubfricError | None = None
+    interrupts: list[KeyboardInterrupt] = []
     with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, estimate):
         folder.continues = folder.unfinished.is_dir()
         if folder.continues:
@@ -165,7 +166,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
                 checkpoint=folder.unfinished,
                 on_begin=progress.on_begin,
                 on_step=progress.on_step,
-                returns_interrupted=True,
+                on_interrupt=interrupts.append,
             )
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
@@ -179,8 +180,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             lines = _answer_lines(scene, result, complete=failure is None)
         given = given_tables(arguments.scene)
         folder.complete(prepared, estimate, given, result, OF_MOMENT, lines=lines, mean=mean)
-        if result.report.status == STOPPED:
-            raise KeyboardInterrupt
+        for interrupt in interrupts:
+            raise interrupt
     if failure:
         raise failure
 

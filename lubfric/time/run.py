@@ -110,12 +110,12 @@ def run_in_time(
     checkpoint: str | Path | None = None,
     on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
     on_begin: Callable[[float, float], None] | None = None,
-    returns_interrupted: bool = False,
+    on_interrupt: Callable[[KeyboardInterrupt], None] | None = None,
 ) -> tuple[TransientResult, list[str]]:
     """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
     ``checkpoint`` keeps. ``on_begin``: called before the first step as on_begin(time, seconds), with the time [s] from
-    which the run continues, and the processor time of the calls that solved it until there. ``returns_interrupted``: an
-    interrupt after the first output returns the outputs so far, with the status "interrupted"."""
+    which the run continues, and the processor time of the calls that solved it until there. ``on_interrupt``: takes
+    an interrupt after the first output; then the outputs so far are returned, with the status "interrupted"."""
     begun = processor_time()
     validate.called_back("on_step", on_step, "time, duration, row")
     scene, times = _with_times(scene, times)
@@ -141,7 +141,7 @@ def run_in_time(
             on_step=on_step,
             most_work=limit - counted.spent,
             begun=begun,
-            returns_interrupted=returns_interrupted,
+            on_interrupt=on_interrupt,
         )
     result = collect(model, start.grid_error, plan, progress, outputs, ended, limit)
     return result, [key, *_output_keys(key, len(outputs))]
@@ -168,12 +168,11 @@ def _marched(
     on_step: Callable[..., Any] | None,
     most_work: float,
     begun: float,
-    returns_interrupted: bool,
+    on_interrupt: Callable[[KeyboardInterrupt], None] | None,
 ) -> tuple[Progress, list[Output], str]:
     """Return the last progress of a run, its outputs, and the status with which ``most_work`` [s] of counted work or an
-    interrupt ended it; "" where it ended by itself. The run
-    continues from where the ``store`` has it under ``key``, if it does: from its state, with all outputs that the state
-    counts, which were stored before it. ``begun``: the processor time [s] at the begin of the call."""
+    interrupt ended it; "" where it ended by itself. The run continues from where the ``store`` has it under ``key``, if
+    it does: from its state, with all outputs that the state counts, which were stored before it. ``begun``: the processor time [s] at the begin of the call."""
     count, progress, earlier = store.get(key, STATE) or (0, initial_progress(start, plan), 0.0)
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
     if len(outputs) < count:  # one was damaged, which the store has reported
@@ -201,9 +200,10 @@ def _marched(
                         on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
     except WorkLimitError:
         return progress, outputs, WORK_LIMIT
-    except KeyboardInterrupt:
-        if not (returns_interrupted and outputs):
+    except KeyboardInterrupt as interrupt:
+        if on_interrupt is None or not outputs:
             raise
+        on_interrupt(interrupt)
         return progress, outputs, STOPPED
     return progress, outputs, ""
 

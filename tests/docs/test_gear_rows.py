@@ -34,5 +34,5 @@ def test_radii_and_speeds_of_a_spur_gear_follow_from_its_turning_bodies(s):
         assert abs(speed @ across) == pytest.approx(names[f"u{body}"], rel=1e-12)
         advance[body] = speed @ along
     assert advance[1] == pytest.approx(advance[2])
-    (takes,) = re.findall(r"a step ds\s+takes `ds/\((\S+?)\)`", text)
+    (takes,) = re.findall(r"a step ds\s+takes\s+`ds/\((\S+?)\)`", text)
     assert eval(takes.replace("·", "*"), names) == pytest.approx(abs(advance[1]))

@@ -85,7 +85,7 @@ def test_text_json_and_formula_say_the_same(law):
     for U, T, p in ((0.03, 335.0, 9e7), (-0.5, 350.0, 1.2e8)):
         nu = 10**10 ** (n["A"] - n["B"] * math.log10(T))
         assert law(U, T, p) == pytest.approx(by_hand(n, U, 1e-3 * (nu - 0.7), p), rel=1e-9)
-    assert f"{100 * law.largest:.2g} % at most" in law.text and "333.15 to 353.15 K" in law.text
+    assert f"at most {100 * law.largest:.2g} %" in law.text and "333.15 to 353.15 K" in law.text
 
 
 def test_outside_it_refuses_or_extrapolates_where_requested(law):
@@ -182,7 +182,7 @@ def test_the_command_states_the_error_of_the_law_that_it_writes(law, tmp_path, m
     scene.write_text(QUICK)
     for largest, words in (
         (0.72, "warning: the formula deviates by up to 72 %"),
-        (0.03, "3 % at most, from the solved"),
+        (0.03, "at most 3 % from the solved"),
     ):
         written = dataclasses.replace(law, largest=largest)
         monkeypatch.setattr(lubfric.StribeckResult, "law", lambda _, written=written: written)
