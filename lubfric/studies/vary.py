@@ -237,18 +237,21 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
         )
 
 
-def names_varied(axes: Iterable[Axis]) -> list[set[str]]:
-    """Return the keys that each point of each of ``axes`` states, those in a whole section too, by "section.key"."""
-    return [_names_in(axis.at(index)) for axis in axes for index in range(len(axis.values))]
+def names_varied(axes: Iterable[Axis]) -> Iterator[set[str]]:
+    """Yield the keys that each point of each of ``axes`` states, those in a whole section too, by "section.key"."""
+    return (_names_in(axis.at(index)) for axis in axes for index in range(len(axis.values)))
 
 
 def check_viscosity(scene: Scene, varied: Iterable[set[str]]) -> None:
     """Raise `InputError` for ``varied`` keys that put a viscosity in place of the oil of the scene while its
     pressure-viscosity coefficient, an estimate from that oil, would stay what it is."""
-    rows = list(varied)
     oil = scene.lubricant.oil
-    is_given = oil is None or oil.alpha is not None or any(PRESSURE_VISCOSITY in names for names in rows)
-    if is_given or not any(VISCOSITY in names and "lubricant.oil" not in names for names in rows):
+    if oil is None or oil.alpha is not None:
+        return
+    rows = list(varied)
+    has_coefficient = any(PRESSURE_VISCOSITY in names for names in rows)
+    replaces_oil = any(VISCOSITY in names and "lubricant.oil" not in names for names in rows)
+    if has_coefficient or not replaces_oil:
         return
     raise InputError(
         f"{VISCOSITY} is varied, but the viscosity of the scene comes from an oil, which also gives its "
