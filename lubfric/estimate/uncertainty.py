@@ -143,7 +143,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     largest_input : the input whose range changes f most
     inputs_in_interval : keys of the inputs whose ranges the interval contains
     cut : why the interval is narrower than the budget says, as text: a limit of the shear stress, or the sense of the
-        sliding, excludes what is beyond (``notes`` has the numbers)
+        sliding, excludes what is beyond
     """
 
     coefficient: float = math.nan

@@ -19,17 +19,11 @@ from .uncertainty import Uncertainty, interval
 # Names of the interval, by whether the sampling error of f is known: else f has only one without it.
 NAME_OF_INTERVAL = {True: "the interval", False: "the interval without the sampling error"}
 
-AT_MOST = (
-    "{} ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress of the oil "
-    "in the thinnest film) and {} by rolling"
-)
-
-# These reasons in a few words, next to the budget.
+# Why the interval is narrower than the budget.
 CUT_AT_LIMIT = "{} ends at the largest f by the limits of the shear stress"
 PARTS_AT_LIMIT = ", {} by sliding and {} by rolling"
 CUT_AT_ZERO = "{} begins at the smallest f that resists the sliding"
-
-RESISTS_SLIDING = "{} begins at {:.3g}: at a smaller f the sliding part would drive the sliding"
+LEAST_F = ", {:.3g}"
 
 # What narrows the sampling error, by whether the sample has more strips.
 SMALLER_SAMPLING_TOLERANCE = "set a smaller numerics.sampling_tolerance to reduce it"
@@ -100,12 +94,8 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     ends = max(low, -most), min(high, most)
     name = NAME_OF_INTERVAL[math.isfinite(uncertainty.sampling)]
     parts = f"{sliding:.3g}", f"{by_rolling:.2g}"
-    return replace(
-        uncertainty,
-        interval=ends,
-        cut=(*uncertainty.cut, CUT_AT_LIMIT.format(name) + PARTS_AT_LIMIT.format(*parts)),
-        notes=(*uncertainty.notes, AT_MOST.format(name, *parts)),
-    )
+    cut = CUT_AT_LIMIT.format(name) + PARTS_AT_LIMIT.format(*parts)
+    return replace(uncertainty, interval=ends, cut=(*uncertainty.cut, cut))
 
 
 def _largest_change(scene: Scene, answer: ModelAnswer) -> float:
@@ -153,12 +143,8 @@ def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertain
     if not (_always_slides(scene) and low < least):
         return uncertainty
     name = NAME_OF_INTERVAL[math.isfinite(uncertainty.sampling)]
-    return replace(
-        uncertainty,
-        interval=(least, high),
-        cut=(*uncertainty.cut, CUT_AT_ZERO.format(name)),
-        notes=(*uncertainty.notes, RESISTS_SLIDING.format(name, least + 0.0)),
-    )
+    cut = CUT_AT_ZERO.format(name) + LEAST_F.format(least + 0.0)
+    return replace(uncertainty, interval=(least, high), cut=(*uncertainty.cut, cut))
 
 
 def _always_slides(scene: Scene) -> bool:

@@ -132,12 +132,14 @@ class Past:
 
 @dataclass(frozen=True, kw_only=True)
 class Moment:
-    """The film ``at`` a ``time`` [s] since the roughness began to move; ``work``: what this step took; ``order`` (of
-    `STEP_ORDERS`): of a step along the lubricant; ``past``: what later steps need of it."""
+    """The film ``at`` a ``time`` [s] since the roughness began to move; ``work``: what this step took; ``tolerance``:
+    of its residuals [-]; ``order`` (of `STEP_ORDERS`): of a step along the lubricant; ``past``: what later steps need
+    of it."""
 
     time: float
     at: Iterate
     work: Work
+    tolerance: float
     past: Past
     order: int = STEP_ORDERS[0]
 
@@ -152,7 +154,13 @@ class Moment:
         return assemble(
             self.at,
             Report(
-                name, CONVERGED, iterations=steps, residual=worst, tolerance=worst, residuals=left, evaluations=cost
+                name,
+                CONVERGED,
+                iterations=steps,
+                residual=worst,
+                tolerance=self.tolerance,
+                residuals=left,
+                evaluations=cost,
             ),
         )
 
@@ -197,7 +205,7 @@ def moments(
     begins_anew = past.at is past.before
     at = evaluated(problem, past.at.state)
     smooth = max(1, round(SMOOTHED_HALF_WIDTHS * film_half_width(problem.line) / problem.spacing[0]))
-    yield Moment(time=0.0, at=at, work=Work(0), past=past)
+    yield Moment(time=0.0, at=at, work=Work(0), tolerance=tolerance, past=past)
     while True:
         count += 1
         work = Work(MOST_STEP_FACTORISATIONS)
@@ -242,7 +250,7 @@ def moments(
         at = result.at
         imbalance = np.where(at.state.kind == TOUCHING, 0.0, at.residual) if carries_imbalance else None
         past = Past(at=Remembered(at.state, at.mass), before=past.at, earlier=past.before, imbalance=imbalance)
-        yield Moment(time=count * step, at=at, work=work, past=past, order=order)
+        yield Moment(time=count * step, at=at, work=work, tolerance=tolerance, past=past, order=order)
 
 
 def _past_of(at: Iterate) -> Past:
