@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ import numpy as np
 from .._base import FloatArray, figures
 from ..errors import InputError
 from ..samples import is_extended, is_measured
-from ..studies import OF_TOLERANCES, friction_over_speed, gaps_of, interval_band
+from ..studies import OF_TOLERANCES, friction_over_speed, gaps_of, interval_band, mark_models
 from ..time import (
     add_angle_axis,
     band_label,
@@ -44,6 +44,7 @@ NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 3.0, "load": 1.5, "film": 2.0, "temperature": 1.5}  # inch, at the usual width
+LEAST_OF_PANEL = 0.6  # of the height of a panel, without its labels and the key above it
 HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8)  # inch, at the usual width: speeds, films, load ratios, f
 LAST_HEIGHT = 1.4  # inch, at the usual width: of friction force and power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
@@ -108,8 +109,7 @@ def plot_stribeck(
     for each in shown:
         figures.plain_ticks(each.xaxis)
     options.thin(figure)
-    figures.fit_labels(figure)
-    figure.savefig(path)
+    _save_panels(path, figure, panels, options)
 
 
 def _is_point(order: np.ndarray, measured: Any, options: PictureOptions) -> bool:
@@ -224,6 +224,15 @@ def plot_traction(
     options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
     figures.plain_ticks(last.xaxis)
     options.thin(figure)
+    _save_panels(path, figure, panels, options)
+
+
+def _save_panels(path: Path, figure: Figure, panels: list[str], options: PictureOptions) -> None:
+    """Save a ``figure`` of ``panels``, higher where the key above them and the text below them would leave one of them
+    less than `LEAST_OF_PANEL`."""
+    (_, lowest) = options.size([min(PANEL_HEIGHTS[name] for name in panels)])
+    figures.lay_out(figure)
+    figures.heighten(figure, LEAST_OF_PANEL * lowest)
     figures.fit_labels(figure)
     figure.savefig(path)
 
@@ -244,10 +253,11 @@ def traction_over_ratio(
     label: str = figures.FRICTION_COEFFICIENT,
     color: str = figures.BLUE,
     others: int = 0,
+    models: Collection[str] = (),
 ) -> None:
     """Draw f, its interval and its parts over the slide-roll ratio, from the ``columns`` of a traction curve by
     ascending ratio; f as ``label`` in the ``color``, which the interval has too. ``others``: as of
-    `lubfric.studies.interval_band`."""
+    `lubfric.studies.interval_band`; ``models``: as of `lubfric.studies.mark_models`."""
     c = columns
     gaps = _draw_gaps(axes, c, color)
     numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
@@ -259,6 +269,7 @@ def traction_over_ratio(
     parts = [np.insert(part, gaps, np.nan) for part in shown]
     style: dict[str, Any] = {"label": label, "color": color, "marker": "o", "ms": 4}
     figures.friction_lines(axes, broken["ratio"], parts, without=options.without, **style)
+    mark_models(axes, c["ratio"], c, color, models)
     axes.set_ylabel(figures.FRICTION_LABEL)
 
 

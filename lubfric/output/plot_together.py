@@ -123,15 +123,15 @@ def plot_curves(
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
     shown = replace(options, without=(*OF_ONE_CURVE, *options.without), has_parts=False)
+    models = {model for columns in curves.values() for model in columns.get("model", np.zeros(0, str)).tolist()}
     for place, (name, columns) in enumerate(curves.items()):
         if "ratio" in columns:
             color = figures.CURVE_COLOURS[place % len(figures.CURVE_COLOURS)]
             label = figures.plain_words(name)
-            traction_over_ratio(axes, columns, shown, label=label, color=color, others=place)
+            traction_over_ratio(axes, columns, shown, label=label, color=color, others=place, models=models)
         else:
-            studies.draw_curve(
-                axes, columns, name, name, interval="bars" if options.has_bars else "band", without=shown.without
-            )
+            interval = "bars" if options.has_bars else "band"
+            studies.draw_curve(axes, columns, name, name, interval=interval, without=shown.without, models=models)
     for columns, violated in zip(curves.values(), violations):
         x = columns["ratio"] if "ratio" in columns else np.abs(columns["speed"])
         ring_points(axes, x, columns["coefficient"], violated, options)
@@ -144,7 +144,8 @@ def plot_curves(
     if measured is not None:
         measured.draw(axes, is_signed=bool((ratios < 0).any()))
         figures.key_above(axes)
-    options.scale(axes, friction=axes)
+    f = np.concatenate([columns["coefficient"] for columns in curves.values()])
+    options.scale(axes, friction=axes, f=f)
     figures.plain_ticks(axes.xaxis)
     options.thin(figure)
     figures.fit_labels(figure)

@@ -33,6 +33,7 @@ from .tables import (
     friction_over_speed,
     interval_band,
     label,
+    mark_models,
     name_of,
     place_in_words,
     plot_map,

@@ -174,8 +174,17 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
 
 def between(curve: Interpolant) -> float:
     """Return the largest relative error of f that a curve is estimated to have between its points."""
-    _, error = _errors_between(curve, curve.samples.speed)
-    return float(error.max())
+    return float(errors_of_gaps(curve).max())
+
+
+def errors_of_gaps(curve: Interpolant) -> np.ndarray:
+    """Return the largest relative error of f that a curve is estimated to have between each two neighbouring speeds,
+    (n - 1,)."""
+    speeds = curve.samples.speed
+    grid, error = _errors_between(curve, speeds)
+    largest = np.zeros(speeds.size - 1)
+    np.maximum.at(largest, np.searchsorted(speeds, grid) - 1, error)
+    return largest
 
 
 def _errors_between(curve: Interpolant, taken: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -189,6 +189,11 @@ def columns_of_curve(curve: CurveResult) -> dict[str, np.ndarray]:
     return columns | dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
 
 
+def models_of_points(curve: CurveResult) -> np.ndarray:
+    """Return the name of the model that answered at each point of a curve; "" where none did."""
+    return np.array(["" if point is None else point.decision.model for point in curve.points], str)
+
+
 def csv_bytes(curve: CurveResult) -> bytes:
     """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text the
     model that answered, which assumptions are violated there, and the uncertainty of f. Its bytes follow from the
@@ -196,7 +201,7 @@ def csv_bytes(curve: CurveResult) -> bytes:
     columns = columns_of_curve(curve)
     named: dict[str, Any] = {heading(name): values for name, values in columns.items() if name != "seconds"}
     texts: dict[str, Any] = {
-        "model": ["" if point is None else point.decision.model for point in curve.points],
+        "model": models_of_points(curve),
         "validity": curve.validity_cells,
         "uncertainty": list(curve.uncertainty.text),
     }

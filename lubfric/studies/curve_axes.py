@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Collection, Container, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
@@ -10,7 +10,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from .._base import figures, validate
-from .curve import columns_of_curve
+from .curve import columns_of_curve, models_of_points
+from .points import MODEL
 from .tables import FrictionLines, friction_over_speed
 
 if TYPE_CHECKING:
@@ -75,7 +76,8 @@ def curve_axes(
     axes = figures.axes_or_new(ax)
     without = () if parts else (figures.ASPERITY_FRICTION, figures.FLUID_FRICTION)
     shown: dict[str, Any] = {"interval": interval, "error_parts": error_parts, "without": without}
-    draw_curve(axes, columns_of_curve(curve), curve.scene.name, label, **shown, **style)
+    columns = columns_of_curve(curve) | {MODEL: models_of_points(curve)}
+    draw_curve(axes, columns, curve.scene.name, label, **shown, **style)
     figure = axes.get_figure(root=True)
     if figure is not None and figure.get_figwidth() <= figures.NARROW_FIGURE:
         figures.fit_labels(figure, [axes])
@@ -91,11 +93,12 @@ def draw_curve(
     interval: str = "band",
     error_parts: bool | None = None,
     without: Container[str] = (),
+    models: Collection[str] = (),
     **style: Any,
 ) -> None:
     """Draw the curve in the ``columns`` of a `lubfric.StribeckResult` on ``axes``, unlike those that are there;
-    ``scene``: the name of its scene; ``without``: the names of parts that are omitted; the others: as of
-    `curve_axes`."""
+    ``scene``: the name of its scene; ``without``: the names of parts that are omitted; ``models``: as of
+    `mark_models`; the others: as of `curve_axes`."""
     before = _DRAWN.setdefault(axes, [])
     for place, each in enumerate(before):
         before[place] = _beside_others(each, [other.scene for other in before[:place]])
@@ -115,6 +118,7 @@ def draw_curve(
         has_interval=interval != "none",
         without=without,
         others=len(before),
+        models=models,
         **{"color": _next_colour(before)} | style | {"label": figures.plain_words(name)},
     )
     drawn = DrawnCurve(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,11 +13,12 @@ from scipy.interpolate import PchipInterpolator
 
 from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
+from ..models import MODELS, title_of
 from ..models.shared import half_width_of_error
 from ..quantities import COLUMNS, KEYS, Quantity, axis_label, described, heading, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import ZERO_CELSIUS, converted, unit_of_largest, worded
-from .choose import between
+from .choose import errors_of_gaps
 from .interpolate import Interpolant, through
 from .operating_points import INTERVAL_COLUMNS, ORDERED_BY
 from .plan import StudyPlan
@@ -41,6 +42,10 @@ BAND_ALPHA = 0.2
 # Width [pt] and opacity of the edges of bands over each other. A choice, by looking at the figures.
 BAND_EDGE_WIDTH = 0.8
 BAND_EDGE_ALPHA = 0.6
+
+# Distance of the bars of two curves at one speed, of the length of the curve. A choice, by looking at the figures.
+BAR_STEP = 0.012
+
 # Lines of operating points, at most. A choice, by looking at the figures.
 MOST_OF_POINTS = 10
 
@@ -60,6 +65,9 @@ DRAWN_ERROR = 0.05
 # Relative error of f between the points up to which f is interpolated there, and beyond which it is not known. A
 # convention.
 LARGEST_BETWEEN = 0.5
+
+# Markers of points of simpler models, as large as the filled ones that they cover. A choice, by looking at the figures.
+HOLLOW_MARKERS = ("o", "s")
 
 # Width and height of the picture of a map [inch]. A choice, by looking at the figures.
 MAP_SIZE = (7.0, 5.0)
@@ -283,7 +291,16 @@ def interval_band(
         band += ", model-form error where known"
     if as_bars:
         lengths = f - columns["interval_low"], columns["interval_high"] - f
-        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=color, elinewidth=0.8, capsize=2.5, label=band)
+        ax.errorbar(
+            _beside(over, others, is_ratio="ratio" in columns),
+            f,
+            yerr=lengths,
+            fmt="none",
+            ecolor=color,
+            elinewidth=0.8,
+            capsize=2.5,
+            label=band,
+        )
         return []
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
@@ -311,6 +328,14 @@ def interval_band(
     return drawn
 
 
+def _beside(over: FloatArray, others: int, *, is_ratio: bool) -> FloatArray:
+    """Return places of bars a little beside the points that are ``over`` speeds or ratios, such that they do not cover
+    those of the ``others``."""
+    if is_ratio:
+        return over + others * BAR_STEP * (np.nanmax(over) - np.nanmin(over))
+    return over * (over.max() / over.min()) ** (others * BAR_STEP)
+
+
 @dataclass(frozen=True, kw_only=True)
 class FrictionLines:
     """The lines of a drawn curve: of ``f``, of its ``parts``, and the thin ones of single ``errors`` in its band."""
@@ -329,45 +354,65 @@ def friction_over_speed(
     has_interval: bool = True,
     without: Container[str] = (),
     others: int = 0,
+    models: Collection[str] = (),
     **style: Any,
 ) -> FrictionLines:
     """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``,
     ``others``: as of `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are
-    omitted; ``style``: of the line of f), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f
-    is known to `DRAWN_ERROR` there, and dashed to `LARGEST_BETWEEN`. Points that failed, and rest, are omitted."""
+    omitted; ``style``: of the line of f), by the ``columns`` of a `lubfric.StribeckResult`. Between two points where f
+    is known to `DRAWN_ERROR` its line is solid, and dashed up to `LARGEST_BETWEEN`. ``models``: as of
+    `mark_models`. Points that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {name: column[order] for name, column in columns.items()}
     speed = np.abs(c["speed"])
     load = c["contact_load"] + c["film_load"]
     curve = _interpolant(c)
-    error = np.inf if curve is None else between(curve)
-    line = _line(curve) if curve is not None and error <= LARGEST_BETWEEN else None
+    of_gaps = np.full(1, np.inf) if curve is None else errors_of_gaps(curve)
+    line = _line(curve) if curve is not None and of_gaps.max() <= LARGEST_BETWEEN else None
     color = style.get("color", figures.BLUE)
     errors: list[Line2D] = []
     if has_interval:
         about = line and line[:2]
         errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
-    if line is not None:
-        of_points: dict[str, Any] = {}
-        if error > DRAWN_ERROR:
-            of_points |= {} if "label" in style else {"label": figures.FRICTION_COEFFICIENT}
-            if "label" in style and not {"ls", "linestyle"} & set(style):
-                axes.plot([], [], ls="--", color=figures.GREY, label=figures.INTERPOLATED_BETWEEN)
-            style = {"label": figures.INTERPOLATED_BETWEEN, "ls": "--"} | style
-        (f, *of_parts) = figures.friction_lines(axes, line[0], line[1:], without=without, **style)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=color, **of_points)
+    if curve is not None and line is not None:
+        is_whole = bool({"ls", "linestyle"} & set(style)) or of_gaps.max() <= DRAWN_ERROR
+        gap = np.clip(np.searchsorted(curve.samples.speed, line[0], side="right") - 1, 0, of_gaps.size - 1)
+        is_uncertain = (of_gaps > DRAWN_ERROR)[gap] & (not is_whole)
+        shown = (np.where(is_uncertain, np.nan, line[1]), *line[2:])
+        (f, *of_parts) = figures.friction_lines(axes, line[0], shown, without=without, **style)
+        if is_uncertain.any():
+            joined = np.convolve(is_uncertain, (1, 1, 1), "same") > 0  # with the ends of the solid pieces
+            dashed: dict[str, Any] = {"ls": "--", "color": color, "lw": f.get_linewidth()}
+            axes.plot(line[0], np.where(joined, line[1], np.nan), **dashed)
+            axes.plot([], [], ls="--", color=figures.GREY, label=figures.INTERPOLATED_BETWEEN)
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
     else:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         if speed.size > 1:  # a dotted line joins the points, and is no curve
             axes.plot(speed, parts[0], ls=style.get("ls", ":"), color=color, label=figures.NOT_BETWEEN)
         points = {"marker": "o", "ms": 4} | style | {"ls": ""}
         (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
+    mark_models(axes, speed, c, color, models)
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
     figures.key_above(axes)
     return FrictionLines(f=f, parts=tuple(of_parts), errors=tuple(errors))
+
+
+def mark_models(
+    axes: Axes, x: FloatArray, columns: Mapping[str, np.ndarray], color: Any, models: Collection[str] = ()
+) -> None:
+    """Make those points at ``x`` hollow that the ``columns`` state to be of a simpler model than others of the picture.
+    ``models``: names of the models of other curves in it."""
+    of_points = columns.get(MODEL, np.full(x.shape, ""))
+    by_cost = [model.name for model in MODELS if model.name in {*models, *of_points.tolist()}]
+    for name, marker in zip(by_cost[:-1], HOLLOW_MARKERS):
+        chosen = of_points == name
+        if chosen.any():
+            hollow: dict[str, Any] = {"ls": "", "marker": marker, "ms": 4, "mfc": "w", "mec": color, "zorder": 2.5}
+            axes.plot(x[chosen], columns["coefficient"][chosen], **hollow, label=title_of(name))
 
 
 def _interpolant(columns: dict[str, np.ndarray]) -> Interpolant | None:

@@ -214,13 +214,13 @@ def test_a_line_between_points_is_interpolated_as_far_as_the_report_states_it(mo
         samples=SimpleNamespace(speed=speed), boundary=lambda u: 0.1 - 0.05 * u, film=lambda u: 0 * u
     )
     monkeypatch.setattr("lubfric.studies.tables.through", lambda columns: curve)
-    monkeypatch.setattr("lubfric.studies.tables.between", lambda curve: error)
+    monkeypatch.setattr("lubfric.studies.tables.errors_of_gaps", lambda curve: np.array([error]))
     axes = new_figure().subplots()
     f = COLUMNS["coefficient"]
     friction_over_speed(axes, COLUMNS | {"interval_low": 0.99 * f, "interval_high": 1.01 * f})
     names = [line.get_label() for line in axes.lines]
     assert [name for name in names if name in ("interpolated", "not known in between")] == [label]
-    x, f = data(axes, label)
+    (x, f) = next(line.get_data() for line in axes.lines if line.get_linestyle() in ("--", ":"))
     assert label != "interpolated" or np.allclose(f, 0.1 - 0.05 * x)
     (low, high) = edges(axes, "95 % interval, without model-form error")
     assert low.size == 3 or np.allclose([low / f, high / f], [[0.99], [1.01]])  # the band follows an interpolated line
@@ -779,6 +779,15 @@ def test_a_long_title_lies_within_a_narrow_picture(laid_out):
     figure.canvas.draw()
     box = figure._suptitle.get_window_extent()
     assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
+
+
+def test_key_and_text_leave_a_narrow_diagram_its_height(laid_out):
+    warning = SimpleNamespace(severe=False, is_note=False, assumption="surfaces fast enough for the heat " * 6, what="")
+    options = PictureOptions(width=0.085, panels=("friction",), y_scale="log")
+    plot_stribeck("x.png", COLUMNS, "title", [[warning]] * 4, options=options)
+    (figure,) = laid_out
+    figure.canvas.draw()
+    assert figure.axes[0].get_window_extent().height / figure.dpi > 1.3  # inch, of a panel of 2.4
 
 
 def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(figures):

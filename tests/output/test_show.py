@@ -15,7 +15,7 @@ from lubfric._base import figures
 from lubfric.output import main
 from lubfric.quantities import NUMBERS
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
-from lubfric.studies import draw_curve
+from lubfric.studies import columns_of_curve, draw_curve
 from lubfric.time import friction_over_time
 
 MODEL = lubfric.prepare(SCENE)
@@ -108,8 +108,8 @@ def test_curves_on_the_same_axes_differ_and_are_named_once(curve):
     assert curve.coefficient.max() < ax.get_ylim()[1] and ax.get_ylim()[0] == 0.0
 
 
-def test_bars_of_curves_on_the_same_axes_are_at_their_points():
-    """On the screen: a bar beside its marker would have been that of another speed."""
+def test_bars_of_curves_on_the_same_axes_do_not_hide_each_other():
+    """On the screen: those of the first curve at its points, and the others beside them, nearer than the next speed."""
     speeds = np.array([0.01, 0.1])
     columns = {name: np.ones(2) for name in (*NUMBERS, "model_error")}
     columns |= {"speed": speeds, "coefficient": np.array([0.1, 0.1]), "contact_load": np.ones(2)}
@@ -119,10 +119,41 @@ def test_bars_of_curves_on_the_same_axes_are_at_their_points():
         draw_curve(ax, columns, name, interval="bars")
     at_points = ax.transData.transform(np.stack([speeds, [0.1, 0.1]], axis=1))[:, 0]
     assert len(ax.containers) == 3
-    for bars in ax.containers:
+    for place, bars in enumerate(ax.containers):
         (upper, *_) = bars.lines[1]
         on_screen = upper.get_transform().transform(upper.get_xydata())[:, 0]
-        np.testing.assert_allclose(on_screen, at_points)
+        np.testing.assert_allclose(on_screen - at_points, 0.012 * place * np.ptp(at_points), atol=1e-6)
+
+
+def test_only_the_uncertain_pieces_of_a_curve_are_dashed(curve, monkeypatch):
+    """In the colour of the curve, whose sample in the key is solid."""
+    monkeypatch.setattr("lubfric.studies.tables.errors_of_gaps", lambda curve: np.array([0.01, 0.2]))
+    ax = curve.plot(axes(), label="mine", parts=False, interval="none")
+    middle = curve.speed[1]
+    (solid, dashed) = (line for line in ax.lines if line.get_xdata().size > 3)
+    assert solid.get_label() == "mine" and (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    assert solid.get_color() == dashed.get_color()
+    x = solid.get_xdata()
+    np.testing.assert_array_equal(np.isfinite(solid.get_ydata()), x < middle)
+    is_dashed = np.isfinite(dashed.get_ydata())
+    np.testing.assert_array_equal(is_dashed, np.append(is_dashed[1:], True) & (np.append(x[1:], np.inf) >= middle))
+    (sample,) = (line for line in ax.lines if line.get_label() == "interpolated")
+    assert sample.get_linestyle() == "--"
+
+
+def test_points_of_a_simpler_model_are_hollow(curve):
+    columns = columns_of_curve(curve) | {"model": np.array(["quick", "deterministic", "quick"])}
+    ax = axes()
+    draw_curve(ax, columns, "one")
+    np.testing.assert_allclose(lines(ax)["quick model"][:, 0], curve.speed[[0, 2]])
+    (hollow,) = (line for line in ax.lines if line.get_label() == "quick model")
+    assert hollow.get_markerfacecolor() == "w" and "deterministic model" not in lines(ax)
+    ax = axes()
+    draw_curve(ax, columns | {"model": np.full(3, "quick")}, "all alike")
+    assert "quick model" not in lines(ax)
+    ax = axes()
+    draw_curve(ax, columns | {"model": np.full(3, "quick")}, "beside others", models={"deterministic"})
+    assert lines(ax)["quick model"].shape == (3, 2)
 
 
 def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
@@ -139,7 +170,7 @@ def test_what_a_drawn_curve_has_is_chosen_by_its_keywords(curve):
 @pytest.mark.parametrize("word", ["ls", "linestyle"])
 @pytest.mark.parametrize("error", [0.01, 0.2, 0.6])
 def test_a_line_has_the_requested_style_however_well_f_is_known_between_points(curve, monkeypatch, word, error):
-    monkeypatch.setattr("lubfric.studies.tables.between", lambda curve: error)
+    monkeypatch.setattr("lubfric.studies.tables.errors_of_gaps", lambda curve: np.full(2, error))
     ax = curve.plot(axes(), label="mine", parts=False, interval="none", **{word: "-.", "linewidth": 3.0})
     (line,) = (each for each in ax.lines if each.get_linestyle() != "None")
     assert line.get_linestyle() == "-."
@@ -178,6 +209,9 @@ def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkey
     np.testing.assert_allclose(rings, np.tile([[curve.speed[1], curve.coefficient[1]]], (2, 1, 1)))
     assert main([*both, "--labels", "ground, honed", "--width", "84 mm"]) == 0
     assert {"ground", "honed"} <= set(lines(saved[1].axes[0]))
+    assert main([*both, "--y-scale", "log"]) == 0
+    (low, high) = saved[2].axes[0].get_ylim()
+    assert 0 < low < curve.coefficient.min() and curve.coefficient.max() < high < 10 * curve.coefficient.max()
     for more, words in (
         (["--labels", "one"], "1 names for 2 folders"),
         (["--panels", "film"], "--panels is for the picture of one run"),
