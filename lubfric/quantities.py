@@ -196,8 +196,8 @@ class Quantities(Generic[T]):
         "K",
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
-        note="mean across the film and along the line; by the deterministic model for one strip at one moment, so it "
-        "scatters; NaN where it was not computed",
+        note="mean across the film and along the line; by the deterministic model for the solved strips at one moment, so "
+        "it scatters; NaN where it was not computed",
     )
     power_loss: T = quantity(
         "W",

@@ -43,11 +43,11 @@ CELL_DIGITS = 4
 # Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
 # shows digits that are not known.
 DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
-# Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
+# Digits of a temperature rise, which is that of few strips at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
 RISE_NOTE = (
-    "The temperature rises have no stated error. The deterministic and the quick model compute them for one strip at "
-    "one moment. The rise of the film varies up to threefold between strips and moments, so steps from point to point "
+    "The temperature rises have no stated error. The deterministic and the quick model compute them for the solved "
+    "strips at one moment. The rise of the film varies up to threefold between strips and moments, so steps from point to point "
     "are partly scatter. f includes the effect of heat, and the interval of f its error."
 )
 # Columns of a table of operating points from which others follow, and these.

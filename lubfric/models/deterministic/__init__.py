@@ -7,7 +7,7 @@ from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long
 from .expected_friction import expected_friction
 from .expected_steps_in_time import COEFFICIENTS, StepFacts
 from .flow import derivatives, mass_balance
-from .heat_of_strip import strip_heat
+from .heat_of_strip import heat_of_strips, strip_heat
 from .levels import Levels, levels_of, two_levels
 from .linear import System, gmres, nested_dissection
 from .moving import Moment, RoughBody, moments, moved_downstream, travelling

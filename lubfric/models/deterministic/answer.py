@@ -50,7 +50,7 @@ from ..shared import (
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
-from .heat_of_strip import strip_heat, warmed
+from .heat_of_strip import heat_of_strips, strip_heat, warmed
 from .ladder import EndOfCells
 from .levels import Levels, mean
 from .problem import MOST_GRID_CELLS
@@ -82,7 +82,7 @@ TOO_MANY_CELLS = (
     "shorter cells of {} would be more than {:.3g}, the largest number that is solved: the numerical error is twice "
     "the estimate from longer cells; {} to reduce it"
 )
-ONE_HEAT = "heat is computed on one strip, and at one moment if roughness moves; it scatters between strips and moments"
+ONE_HEAT = "heat is the mean of the solved strips, each at one moment if roughness moves; its scatter is not known"
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
 # What has the boundary friction f_b, by whether the shear stress of the lubricant is unlimited: where it has a limit, a
@@ -119,7 +119,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     scene = prepared.scene
     sample = prepared.sample
     results = [pair.resolved.result for pair in levels.pairs]
-    heat = strip_heat(scene, results[0])
+    heat = heat_of_strips(scene, results)
     numbers = warmed(scene, levels.numbers, heat) | {"speed": speed}
     errors = dict(levels.errors)
     if has_moving_roughness(scene):
