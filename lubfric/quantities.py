@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import tomllib
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, fields
 from importlib.resources import files
 from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from .errors import InputError
-from .units import converted, printed, worded
+from .units import converted, printed, unit_of_largest, worded
 
 T = TypeVar("T")  # float, or an array over operating points
 
@@ -414,13 +416,31 @@ COLUMNS = (
     | {"sampling_tolerance": Quantity("-", "requested relative standard error of f")}
 )
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
+# Ends of the keys of two lengths, along x and y.
+LENGTHS_ALONG_AXES = ("correlation_length", "spacing")
 
 
 def worded_value(name: str, value: Any) -> str:
-    """Return a ``value`` of the column or key ``name``, in a common unit; that of the oil's temperature in °C."""
-    if name == "lubricant.temperature":
+    """Return a ``value`` of the column or key ``name``, in a common unit; that of the oil's temperature in °C. Several
+    numbers, also as a text such as "[1e-05, 5e-05]", have one unit; lengths along x and y are "10 x 50 µm"."""
+    unit = COLUMNS[name].unit if name in COLUMNS else "-"
+    numbers = _listed_numbers(value)
+    if numbers and unit != "-":
+        largest = unit_of_largest(numbers, unit)
+        between = " x " if name.endswith(LENGTHS_ALONG_AXES) else ", "
+        return f"{between.join(f'{converted(v, unit, largest):.4g}' for v in numbers)} {printed(largest)}".rstrip()
+    if name == "lubricant.temperature" and not isinstance(value, str):
         return f"{converted(value, 'K', '°C'):.4g} °C"
-    return worded(value, COLUMNS[name].unit if name in COLUMNS else "-")
+    return worded(value, unit)
+
+
+def _listed_numbers(value: Any) -> list[float]:
+    """Return the numbers of a list of them, or of a text that is one; none of anything else."""
+    if isinstance(value, str) and value.startswith("["):
+        with suppress(ValueError):
+            value = json.loads(value)
+    is_list = isinstance(value, (list, tuple)) and all(type(part) in (int, float) for part in value)
+    return [float(part) for part in value] if is_list else []
 
 
 def names_with(fact: str) -> tuple[str, ...]:

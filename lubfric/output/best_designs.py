@@ -55,10 +55,7 @@ RULE = (
 
 def values_in_words(values: dict[str, Any]) -> str:
     """Return ``values`` [SI] by their keys as text."""
-    words = []
-    for key, value in values.items():
-        words.append(f"{name_of(key)} {worded_value(key, value) if isinstance(value, float) else value}")
-    return ", ".join(words)
+    return ", ".join(f"{name_of(key)} {worded_value(key, value)}" for key, value in values.items())
 
 
 def condition_in_words(condition: dict[str, Any]) -> str:
@@ -166,7 +163,8 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
     counts = Counter(values_in_words(one.design) for one in best_ones)
     conditions = f"{len(best_ones)} operating conditions"
     if len(counts) == 1:
-        text = f"One design has the lowest f at all {conditions}: {next(iter(counts))}."
+        where = "both operating conditions" if len(best_ones) == 2 else f"all {conditions}"
+        text = f"One design has the lowest f at {where}: {next(iter(counts))}."
     else:
         words = "; ".join(f"with {name} at {count}" for name, count in counts.most_common(MOST_NAMED))
         more = "; ..." if len(counts) > MOST_NAMED else "."
@@ -180,8 +178,10 @@ def _summary(best_ones: tuple[BestDesign, ...]) -> str:
     least, most = (_number(find(best_ones, key=lambda one: one.value), "-") for find in (min, max))
     ends = f"The lowest f is from {least} to {most}, by condition."
     clear = sum(not one.rivals for one in best_ones)
-    distinct = f"At {clear} of them it is lower than with all other designs by more than the error of the difference"
-    unclear = "At none of them can it be distinguished from all other designs"
+    which = "It" if clear == len(best_ones) else f"At {clear} of them it"
+    others = "with the other design" if max(one.compared for one in best_ones) == 2 else "with all other designs"
+    distinct = f"{which} is lower than {others} by more than the error of the difference"
+    unclear = f"At none of them can it be distinguished from {others.removeprefix('with ')}"
     return f"{text} {ends} {distinct if clear else unclear}. The table of the report has a row for each condition."
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from .. import studies
 from .._base import figures
 from ..models.shared import percent
+from ..quantities import worded_value
 from .picture_options import THINNER, PictureOptions
 
 if TYPE_CHECKING:
@@ -231,7 +232,7 @@ def _draw_over_key(
     if is_number:
         studies.tick_values(axes, along)
     else:
-        studies.name_places(axes, names)
+        studies.name_places(axes, [worded_value(key, name) for name in names])
     axes.set_xlabel(label)
 
 

@@ -20,6 +20,9 @@ BY_FIT = "fitted"
 DERIVED_FROM_HONED = "derived from sk, spk, svk (nominal; that of a generated map deviates)"
 # Key of an oil by its name, from which other inputs follow.
 NAMED_OIL = "oil"
+# Keys of an oil by its grade, beside which the index is given.
+GRADE = "grade"
+VISCOSITY_INDEX = "viscosity_index"
 # Key of the bodies by their material, from which other inputs follow.
 NAMED_MATERIAL = "material"
 # Key of the sliding speed over a run, which a scene has in its [transient].
@@ -81,7 +84,9 @@ def _is_replaced(key: str, varied: Set[str]) -> bool:
     section, _, name = key.partition(".")
     fields = {field for other in varied for field in fields_of_key(other)}
     if section == "lubricant" and name in OIL_KEYS:
-        return not varied.isdisjoint({key, *(f"{section}.{other}" for other in ("viscosity", *SOURCES))})
+        replacing = varied & {key, *(f"{section}.{other}" for other in ("viscosity", *SOURCES))}
+        is_kept = name not in SOURCES or name == VISCOSITY_INDEX
+        return bool(replacing - {f"{section}.{GRADE}"} if is_kept else replacing)
     return not fields.isdisjoint(fields_of_key(key))
 
 

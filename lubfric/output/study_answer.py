@@ -1,10 +1,12 @@
 """The answer of a study, in sentences."""
 
+import math
+
 import numpy as np
 
-from ..models.shared import alpha_of_points_in_words, is_by_sliding, numbers_in_words, percent
+from ..models.shared import alpha_of_points_in_words, is_by_sliding, numbers_in_words, percent, sentence
 from ..quantities import COLUMNS
-from ..scene import SLIDE_ROLL_RATIO_KEY
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
@@ -15,19 +17,24 @@ from ..studies import (
     StudyResult,
     columns_of_study,
     design_keys,
+    differences,
     is_scattered,
     label,
     main_effects,
     mean_over_cycle,
     name_of,
+    pairs_around_reversals,
     place_in_words,
     points_are_designs,
     why_not_separated,
 )
-from ..units import converted, plain_number, printed, unit_of_largest, with_interval
+from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
+from .rolling_part import rolling_part
+from .single_changes import listed_changes, single_change_lines
 from .status import omitted_heat_in_words, status_of_study
-from .study_points import effects_at, error_in_words, parts_of_error
+from .study_points import effects_at, error_in_words, parts_of_error, scene_of_each
+from .study_tables import GIVEN_DIGITS
 
 # Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms
 # each.
@@ -61,6 +68,10 @@ OF_TOOTH_PAIR = (
 # Combinations of what is varied beside operating points whose means are reported, at most. A choice: more makes a table
 # of a text.
 MOST_MEANS = 6
+# What sentences call the numbers of a study with an interval.
+NAMES = {"coefficient": "friction coefficient", "power_loss": "power loss"}
+# Relative difference up to which two products of load and sliding speed are the same. A choice: rounding.
+SAME_SLIDING = 1e-9
 # Share of the variance below which the end of its interval is written as 0. A convention.
 LEAST_STATED_SHARE = 1e-3
 
@@ -74,39 +85,137 @@ def answer_lines(result: StudyResult) -> list[str]:
     if rows:
         rows += effects
         effects = []
-    if result.paired and not points_are_designs(result.plan):
+    if result.paired and result.status.size > 1 and not points_are_designs(result.plan):
         rows += _mean_lines(result)
-    slides = is_by_sliding(result.columns)
-    for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
-        values = result.columns.get(name)
-        if values is None or not np.isfinite(values).any():
-            continue
-        what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
-        # where the points are designs, the best of them has been stated
-        words = ("largest",) if points_are_designs(result.plan) else ("smallest", "largest")
-        for word in words:
-            find = np.nanargmin if word == "smallest" else np.nanargmax
-            counted_values = np.where(slides, np.abs(values), np.nan) if name == "coefficient" else np.abs(values)
-            index = tuple(map(int, np.unravel_index(int(find(counted_values)), values.shape)))
-            low, high = (float(result[end][index]) for end in (low_name, high_name))
-            shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
-            unknown = "" if np.isfinite(low) else " (interval not known)"
-            why = ""
-            if name == "coefficient" and not _slides(result, index):
-                why = f". {IN_PURE_ROLLING}"
-            rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
+    rows += _extremes_lines(result)
     heat = [f"{text} {GIVE_TEMPERATURE}" for text in omitted_heat_in_words(status_of_study(result).omitted_heat)]
     return [*rows, *effects, *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
 
 
+def _extremes_lines(result: StudyResult) -> list[str]:
+    """Return the smallest and the largest f and power loss of the computed points with their intervals and places, in
+    sentences, whether the two can be distinguished, and why another point has the smallest f; of one point its numbers
+    alone. Without the smallest where the points are designs, as the best of them has been stated."""
+    places = {name: _extremes(result, name) for name in INTERVAL_COLUMNS}
+    known = {name: ends for name, ends in places.items() if ends}
+    if np.count_nonzero(np.isfinite(result["coefficient"])) == 1:
+        index = next(iter(known.values()))[0]
+        numbers = " and ".join(f"the {NAMES[name]} is {_number_at(result, name, index)}" for name in known)
+        return [f"{sentence(f'{numbers}, at {point_in_words(result, index)}')}{_why_rolling(result, index)}"]
+    words = ("largest",) if points_are_designs(result.plan) else ("smallest", "largest")
+    computed = " of the computed points" if result.paired and not points_are_designs(result.plan) else ""
+    rows = []
+    for name, ends in known.items():
+        for word, index in zip(words, ends[-len(words) :]):
+            why = _why_rolling(result, index) if name == "coefficient" else ""
+            number = _number_at(result, name, index)
+            place = point_in_words(result, index)
+            rows.append(f"The {word} {NAMES[name]}{computed} is {number}, at {place}.{why}")
+        rows[-1] += _whether_distinct(result, name, ends)
+    return [*rows, *_orders_line(result, known), *_reversal_lines(result)]
+
+
+def _extremes(result: StudyResult, name: str) -> list[tuple[int, ...]]:
+    """Return the places of the smallest and the largest magnitude of a number of a study, of f where it comes from
+    sliding; none where none is known."""
+    sizes = np.abs(result.columns.get(name, np.full(result.status.shape, np.nan)))
+    if name == "coefficient":
+        sizes = np.where(is_by_sliding(result.columns), sizes, np.nan)
+    if not np.isfinite(sizes).any():
+        return []
+    return [tuple(map(int, np.unravel_index(int(find(sizes)), sizes.shape))) for find in (np.nanargmin, np.nanargmax)]
+
+
+def _number_at(result: StudyResult, name: str, index: tuple[int, ...]) -> str:
+    """Return a number of a study at a point with its interval, as text."""
+    low, high = (float(result[end][index]) for end in INTERVAL_COLUMNS[name])
+    shown = with_interval(float(result[name][index]), low, high, unit=COLUMNS[name].unit)
+    return shown + ("" if np.isfinite(low) else " (interval not known)")
+
+
+def _why_rolling(result: StudyResult, index: tuple[int, ...]) -> str:
+    """Return what f is where nothing slides, as a sentence to be appended; "" where something does."""
+    return "" if _slides(result, index) else f" {IN_PURE_ROLLING}."
+
+
+def _whether_distinct(result: StudyResult, name: str, ends: list[tuple[int, ...]]) -> str:
+    """Return that the smallest and the largest of a number cannot be distinguished, as a sentence to be appended; ""
+    where they can, or are not compared."""
+    if result.chosen:
+        return ""
+    first, last = (int(np.ravel_multi_index(index, result.status.shape)) for index in ends)
+    (difference,) = differences(result, name, [(first, last)])
+    low = difference.interval[0]
+    if first == last or not np.isfinite(low) or difference.is_distinct:
+        return ""
+    return f" Within the error of their difference it cannot be distinguished from the smallest (point {first + 1})."
+
+
+def _orders_line(result: StudyResult, extremes: dict[str, list[tuple[int, ...]]]) -> list[str]:
+    """Return why the power loss is smallest, or largest, at another point than f, in a sentence: by the product of load
+    and sliding speed, or where that is the same by the rolling resistance; none where it is at the same point."""
+    if result.chosen or len(extremes) < len(INTERVAL_COLUMNS):
+        return []
+    columns = columns_of_study(result)
+    scenes = scene_of_each(result)
+    for sign, word, places in zip((1.0, -1.0), ("smallest", "largest"), zip(*extremes.values())):
+        rows = [int(np.ravel_multi_index(place, result.status.shape)) for place in places]
+        sliding = [scenes[row].bodies.load * abs(_sliding_speed(scenes[row], columns["speed"][row])) for row in rows]
+        rolling = rolling_part(columns["rolling_resistance"], columns["speed"])[rows].tolist()
+        is_same = math.isclose(*sliding, rel_tol=SAME_SLIDING)
+        reason = "the rolling resistance of both surfaces, a part of it," if is_same else "load times sliding speed"
+        of_f, of_loss = rolling if is_same else sliding
+        if rows[0] == rows[1] or not sign * of_loss < sign * of_f:
+            continue
+        ends = (
+            f"{plain_number(of_loss, 'W')} at point {rows[1] + 1} and {plain_number(of_f, 'W')} at point {rows[0] + 1}"
+        )
+        return [
+            f"The power loss is {word} at point {rows[1] + 1} and f at point {rows[0] + 1}, because {reason} is {ends}."
+        ]
+    return []
+
+
+def _sliding_speed(scene: Scene, speed: float) -> float:
+    """Return u2 - u1 [m/s] of a ``scene`` at an entrainment ``speed`` [m/s]."""
+    return scene.motion.slide_roll_ratio * speed
+
+
+def _reversal_lines(result: StudyResult) -> list[str]:
+    """Return between which operating points, in the order of their place, the sliding changes its direction, and how
+    small the power loss is there, in a sentence; none where it does not, or a point is solved at each change."""
+    if not result.paired or not any(name in result.coords for name in ORDERED_BY):
+        return []
+    index = (0,) * (result.status.ndim - 1)
+    pairs = pairs_around_reversals(result, index)
+    if not pairs:
+        return []
+    loss = rolling_part(result["rolling_resistance"][index], np.array(result.plan.point_speeds))
+    rows = sorted({row for pair in pairs for row in pair})
+    low = float(loss[rows].min())
+    high = float(loss[rows].max())
+    ends = interval_in_words(low, high, "W") if high > low else plain_number(low, "W", 2)
+    between = " and ".join(f"{one + 1} and {other + 1}" for one, other in pairs)
+    return [
+        f"Between points {between} the sliding changes its direction: f passes through 0 there, and the power loss "
+        f"falls to about the rolling resistance, {ends}."
+    ]
+
+
 def _main_effects_lines(result: StudyResult) -> list[str]:
-    """Return what the inputs that are varied do to f and to the power loss, each by itself, in a sentence each, or why
-    that is not known; none where no designs vary."""
+    """Return what the inputs that are varied do to f and to the power loss, each by itself, in a sentence each: their
+    parts of the variance, else what one changes between two points that differ in it alone, or why that is not known;
+    none where no designs vary."""
     lines = [_effects_in_words(result, main_effects(result, name), symbol) for name, symbol in OF_EFFECTS.items()]
+    if any(lines):
+        return [line for line in lines if line]
+    changes = listed_changes(result)
+    if changes:
+        return single_change_lines(result, changes)
     why = why_not_separated(result)
-    if why and design_keys(result.plan) and not any(lines):
+    if why and design_keys(result.plan):
         return [f"What each input does by itself is not known, because {why}. {DRAW_INDEPENDENTLY}"]
-    return [line for line in lines if line]
+    return []
 
 
 def _effects_in_words(result: StudyResult, effects: dict[str, MainEffect], symbol: str) -> str:
@@ -157,7 +266,7 @@ def _mean_lines(result: StudyResult) -> list[str]:
     """Return the mean power loss and f over the operating points in a sentence, for each combination of what else is
     varied (at most `MOST_MEANS`)."""
     of_tooth_pair = f" {OF_TOOTH_PAIR}" if POSITION in result.coords else ""
-    weighed = "weighted by the duration" if "duration" in result.coords else "all with the same weight"
+    weighed = "each point weighted by its duration" if "duration" in result.coords else "all with the same weight"
     rows = []
     for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
         where = f" for {place}" if (place := label(result.plan, (*index, slice(None)))) else ""
@@ -165,7 +274,7 @@ def _mean_lines(result: StudyResult) -> list[str]:
         mean = float(np.asarray(result.mean("power_loss"))[index])
         text = _mean_in_words(mean, low, high, "W")
         rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.{of_tooth_pair}")
-        rows.append(_mean_friction(result, index, where))
+        rows.append(_mean_friction(result, index, where, weighed))
     others = int(np.prod(result.status.shape[:-1], dtype=int)) - MOST_MEANS
     if others > 0:
         rows.append(
@@ -181,8 +290,8 @@ def _mean_in_words(mean: float, low: float, high: float, unit: str) -> str:
     return with_interval(mean, low, high, unit=unit) + ("" if np.isfinite(low) else " (interval not known)")
 
 
-def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> str:
-    """Return the mean magnitude of f over the operating points in a sentence. Where f changes its sign, as at the pitch
+def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str, weighed: str) -> str:
+    """Return the mean magnitude of f over the operating points, and how they are ``weighed``, in a sentence. Where f changes its sign, as at the pitch
     point of a gear, a mean with the sign would say nothing."""
     f = result["coefficient"][index]
     ends = np.abs([result[name][index] for name in INTERVAL_COLUMNS["coefficient"]])
@@ -193,7 +302,7 @@ def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> s
     mean, least, most = (mean_over_cycle(values, weights) for values in (np.abs(f), low, ends.max(axis=0)))
     what = "mean friction coefficient" if not (f < 0).any() else "mean magnitude of the friction coefficient"
     text = _mean_in_words(mean, least, most, "-")
-    return f"The {what} is {text}{where}."
+    return f"The {what}, {weighed}, is {text}{where}."
 
 
 def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
@@ -267,7 +376,7 @@ def numbered_point(plan: StudyPlan, index: tuple[int, ...]) -> str:
 
 
 def _coordinate(name: str, values: np.ndarray, index: int) -> str:
-    """Return one of the ``values`` of a coordinate in the unit that all have in common."""
+    """Return one of the ``values`` of a coordinate in the unit that all have in common, in the digits of the user."""
     unit = unit_of_largest(values.tolist(), COLUMNS[name].unit)
-    text = f"{converted(float(values[index]), COLUMNS[name].unit, unit):.4g} {printed(unit)}"
+    text = f"{converted(float(values[index]), COLUMNS[name].unit, unit):.{GIVEN_DIGITS}g} {printed(unit)}"
     return text.replace(" °", "°")

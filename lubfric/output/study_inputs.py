@@ -26,7 +26,7 @@ def range_in_a_line(key: str, values: np.ndarray) -> str:
         unit = unit_of_largest(values.tolist(), COLUMNS[key].unit)
         numbers = dict.fromkeys(f"{converted(value, COLUMNS[key].unit, unit):.4g}" for value in values.tolist())
         return f"{label}: {', '.join(numbers)} {printed(unit)}"
-    shown = list(dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values))
+    shown = list(dict.fromkeys(worded_value(key, value) for value in values.tolist()))
     return f"{label}: {', '.join(shown[:6])}{', ...' if len(shown) > 6 else ''}"
 
 

@@ -1,13 +1,14 @@
 """The tables of the points of a study."""
 
+import math
 from collections.abc import Sequence
 from html import escape
 
 import numpy as np
 
 from ..models.shared import LEAST_STATED_RISE, GatheredTexts, numbers_in_words, peak_hertz_pressure, percent
-from ..quantities import COLUMNS
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, budget
+from ..quantities import COLUMNS, worded_value
+from ..scene import SLIDE_ROLL_RATIO_KEY, SOURCES, Scene, budget
 from ..studies import INTERVAL_COLUMNS, StudyResult, columns_of_study, name_of
 from ..units import (
     ZERO_CELSIUS,
@@ -34,15 +35,22 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     "lambda_ratio": None,
     ASPERITY_LOAD_RATIO: None,
 }
+# Parts of the error of f that differ from point to point.
+OWN_PARTS = ("numerical", "sampling")
 # Films of the folded table of details: in the other one they would make it wider than a window. A choice.
 FOLDED_FILMS = ("full_load_film", "central_film", "min_film")
 # Style of cells that would wrap in a table of many columns: intervals of f, and numbers with their interval.
 UNBROKEN = "white-space: nowrap"
 # Digits of what is varied, which is exact. A choice: a smaller value makes neighbours alike.
 CELL_DIGITS = 4
-# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f. A choice: more
-# shows digits that are not known.
-DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
+# Digits of where an operating point lies, at most. A choice: tables of users have as many.
+GIVEN_DIGITS = 6
+# Digits of the smaller of the asperity load ratio and the film load ratio, which are known to some percent, as f. A
+# choice: more shows digits that are not known.
+RATIO_DIGITS = 2
+# Keys of the oil that change its viscosity, beside those of its temperature, of which a study shows it.
+OF_VISCOSITY = ("lubricant", *(f"lubricant.{name}" for name in ("temperature", "temperature_celsius", *SOURCES)))
+VISCOSITY_OF_OIL = "lubricant.viscosity"
 # Digits of a temperature rise, which is that of few strips at one moment, and varies up to threefold (docs/glossary.md).
 RISE_DIGITS = 2
 RISE_NOTE = (
@@ -65,11 +73,17 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
     columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
     count = len(next(iter(columns.values())))
     picked = _picked(columns, rows)
+    scenes = scene_of_each(result)
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     omitted = {*_constant(result, count), *_derived(result)}
     for name in (name for name in result.coords if name not in omitted):
         (head, column) = _column(result, columns, name, picked)
+        heads.append(head)
+        cells.append(column)
+    if VISCOSITY_OF_OIL not in result.coords and any(name in OF_VISCOSITY for name in result.coords):
+        columns[VISCOSITY_OF_OIL] = np.array([scene.lubricant.viscosity for scene in scenes])
+        (head, column) = _column(result, columns, VISCOSITY_OF_OIL, picked)
         heads.append(head)
         cells.append(column)
     inputs_alone = len(heads)
@@ -84,7 +98,7 @@ def table_of_points(result: StudyResult, rows: int, warnings: Sequence[GatheredT
             continue
         heads += [head, INTERVAL_OF_F]
         place_of_interval = len(heads) - 1
-        cells += _friction_and_interval(columns, picked)
+        cells += _friction_and_interval(columns, picked, [scenes[row] for row in picked])
     if any(each.numbers for each in warnings):
         heads.append("warnings")
         cells.append([_numbers_of_warnings(warnings, row + 1) for row in picked])
@@ -125,14 +139,24 @@ def _numbers_of_warnings(warnings: Sequence[GatheredTexts], point: int) -> str:
     return ", ".join(str(number) for number, each in enumerate(warnings, 1) if point in each.numbers) or "-"
 
 
-def _friction_and_interval(columns: dict[str, np.ndarray], picked: np.ndarray) -> tuple[list[str], list[str]]:
-    """Return f at the points that are ``picked`` and its 95 % intervals, each in as many digits as the interval
-    shows."""
+def _friction_and_interval(
+    columns: dict[str, np.ndarray], picked: np.ndarray, scenes: Sequence[Scene]
+) -> tuple[list[str], list[str]]:
+    """Return f at the points that are ``picked``, of these ``scenes``, and its 95 % intervals, these in as many digits as show their width;
+    f in as many as show its numerical and sampling errors, as the others are largely common to the points."""
     values = columns["coefficient"][picked].tolist()
     low, high = (columns[end][picked].tolist() for end in INTERVAL_COLUMNS["coefficient"])
     rows = list(zip(values, low, high))
-    f = ["-" if np.isnan(row[0]) else beside_interval(*row) for row in rows]
+    parts = parts_of_error(columns, picked, scenes)
+    own = (np.abs(columns["coefficient"][picked]) * np.hypot(*(parts[name].largest for name in OWN_PARTS))).tolist()
+    f = ["-" if np.isnan(row[0]) else beside_interval(*_narrower(*row, error)) for row, error in zip(rows, own)]
     return f, [interval_in_words(first, last, value=value) for value, first, last in rows]
+
+
+def _narrower(value: float, low: float, high: float, error: float) -> tuple[float, float, float]:
+    """Return a ``value`` with the ends of its interval, or with those of its own ``error`` where these are closer."""
+    is_narrower = 0.0 < 2.0 * error < high - low
+    return (value, value - error, value + error) if is_narrower else (value, low, high)
 
 
 def _column(
@@ -143,7 +167,7 @@ def _column(
     quantity = COLUMNS.get(name)
     head = name if name == ASPERITY_LOAD_RATIO else name_of(name)
     if values.dtype.kind != "f":
-        return head, [str(value) for value in values]
+        return head, [worded_value(name, value) for value in values.tolist()]
     if name == "lubricant.temperature":
         return f"{head} [°C]", [f"{value:.4g}" for value in values - float(ZERO_CELSIUS)]
     si = quantity.unit if quantity else "-"
@@ -151,7 +175,10 @@ def _column(
     head += f" [{printed(unit)}]" if printed(unit) else ""
     pair = REPORTED_NUMBERS.get(name)
     low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
-    digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
+    if name == ASPERITY_LOAD_RATIO:
+        return head, [_ratio_cell(value) for value in values.tolist()]
+    digits = CELL_DIGITS if name in result.coords else CELL_DIGITS - 1
+    digits = GIVEN_DIGITS if name in result.plan.coordinates else digits
     return head, [_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)]
 
 
@@ -163,6 +190,15 @@ def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int
     if np.isfinite(low) and np.isfinite(high):
         return with_interval(shown, ends[0], ends[1], "")
     return plain_number(shown, digits=digits)
+
+
+def _ratio_cell(ratio: float) -> str:
+    """Return the part of the load on asperities, in decimals that show two digits of the smaller part of the load."""
+    smaller = min(ratio, 1.0 - ratio)
+    if not smaller > 0:
+        return _cell(ratio, np.nan, np.nan, "-", "-", RATIO_DIGITS)
+    decimals = RATIO_DIGITS - 1 - math.floor(math.log10(smaller))
+    return plain_number(ratio, digits=RATIO_DIGITS) if smaller == ratio else f"{ratio:.{decimals}f}"
 
 
 def _rise_cell(rise: float) -> str:

@@ -97,7 +97,7 @@ def why_no_intervals(result: StudyResult) -> str:
     for name in result.coords:
         here, there = (list(dict.fromkeys(columns[name][where].tolist())) for where in (unknown, known))
         if known.any() and not set(here) & set(there):
-            values = ", ".join(worded_value(name, value) if isinstance(value, float) else str(value) for value in here)
+            values = ", ".join(worded_value(name, value) for value in here)
             apart.append(f"{COLUMNS[name].label if name in COLUMNS else name} {values}")
     text += f" ({'; '.join(apart)})" if apart else ""
     scene = result.plan.scene

@@ -7,6 +7,7 @@ from .codec import classes_of, decode, encode, fits
 from .conditions import design_keys, is_condition, operating_keys, points_are_designs, why_not_compared
 from .curve import CurveResult, columns_of_curve, csv_bytes
 from .curve_axes import draw_curve
+from .differences import Difference, SingleChange, differences, single_changes
 from .distributions import Normal
 from .explain import WITHIN_WORDS, estimated_study, explained, in_words
 from .fit import estimated_fit, explain_fit, fit, starts_in_words
@@ -35,6 +36,7 @@ from .tables import (
     label,
     mark_models,
     name_of,
+    pairs_around_reversals,
     place_in_words,
     plot_map,
     plot_points,

@@ -119,10 +119,10 @@ def best(result: Any, quantity: str = "coefficient") -> tuple[BestDesign, ...]:
             "the operating points vary no design: all their columns count as conditions of one cycle",
             recommendation="give designs in vary; result['power_loss'] has all points",
         )
-    (columns, points) = _compared(result, quantity)
+    (columns, points) = compared_points(result, quantity)
     value = points.value
     ends = points.ends
-    (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
+    (conditions, designs) = (groups_of(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
     best_ones = []
     for condition in range(int(conditions.max(initial=-1)) + 1):
         rows = np.flatnonzero((conditions == condition) & np.isfinite(value))
@@ -160,9 +160,9 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
             "each operating point is a design of its own, which has no mean over conditions",
             recommendation=f"result.best({quantity!r}) compares them",
         )
-    (columns, points) = _compared(result, quantity)
+    (columns, points) = compared_points(result, quantity)
     value = points.value
-    (conditions, designs) = (_groups(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
+    (conditions, designs) = (groups_of(columns, keys(result.plan)) for keys in (operating_keys, design_keys))
     is_compared = ~np.isin(conditions, conditions[~_counts(columns, quantity)])
     count = np.unique(conditions[is_compared]).size
     weights = columns.get(DURATION, np.ones(value.size))
@@ -192,7 +192,7 @@ def best_mean(result: Any, quantity: str = "coefficient") -> BestDesign | None:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Points:
+class ComparedPoints:
     """Points, or designs, that are compared.
 
     Attributes
@@ -216,12 +216,12 @@ class _Points:
     place: np.ndarray
     kind: np.ndarray
 
-    def at(self, rows: np.ndarray) -> _Points:
+    def at(self, rows: np.ndarray) -> ComparedPoints:
         """Return the points in ``rows``."""
-        return _Points(**{name: numbers[..., rows] for name, numbers in vars(self).items()})
+        return ComparedPoints(**{name: numbers[..., rows] for name, numbers in vars(self).items()})
 
 
-def _mean_points(points: _Points, designs: list[np.ndarray], weights: np.ndarray) -> _Points:
+def _mean_points(points: ComparedPoints, designs: list[np.ndarray], weights: np.ndarray) -> ComparedPoints:
     """Return the means of ``points`` over the rows of each of the ``designs``, with the means of all their errors."""
 
     def mean(numbers: np.ndarray) -> np.ndarray:
@@ -231,7 +231,7 @@ def _mean_points(points: _Points, designs: list[np.ndarray], weights: np.ndarray
     sets: dict[tuple[int, ...], int] = {}
     inputs = [sets.setdefault(tuple(points.inputs[rows].tolist()), len(sets)) for rows in designs]
     first = [rows[0] for rows in designs]
-    return _Points(
+    return ComparedPoints(
         value=mean(points.value),
         ends=mean(points.ends),
         own=mean(points.own),
@@ -243,7 +243,7 @@ def _mean_points(points: _Points, designs: list[np.ndarray], weights: np.ndarray
     )
 
 
-def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Points]:
+def compared_points(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], ComparedPoints]:
     """Return the columns of a study, and its points with the magnitude of a ``quantity``."""
     validate.choice("quantity", quantity, INTERVAL_COLUMNS)
     if result.chosen:
@@ -261,7 +261,7 @@ def _compared(result: Any, quantity: str) -> tuple[dict[str, np.ndarray], _Point
     of_interval = np.where(sides_of_f > 0, sides_of_f, np.inf)
     sides = np.abs(ends - value)
     (place, kind) = _places_of_designs(result, columns)
-    return columns, _Points(
+    return columns, ComparedPoints(
         value=value,
         ends=ends,
         own=sides * np.minimum(own_of_f / of_interval, 1.0),
@@ -292,7 +292,7 @@ def _sets_of_inputs(result: Any, columns: dict[str, np.ndarray]) -> np.ndarray:
     """Return the number of the set of inputs with a range that each point has, (n,). An input that the study varies is
     another one at each design, also where its range is the same."""
     scenes = result.plan.scenes
-    designs = _groups(columns, design_keys(result.plan))
+    designs = groups_of(columns, design_keys(result.plan))
     varied = {*design_keys(result.plan)}
     sets: dict[Any, int] = {}
     numbers = []
@@ -305,19 +305,19 @@ def _sets_of_inputs(result: Any, columns: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def _places_of_designs(result: Any, columns: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Return where the design of each point lies, as `_Points.place` and `_Points.kind`."""
+    """Return where the design of each point lies, as `ComparedPoints.place` and `ComparedPoints.kind`."""
     keys = design_keys(result.plan)
     numbers = [
         key for key in keys if key in COMPARED_KEYS and columns[key].dtype.kind == "f" and (columns[key] > 0).all()
     ]
     count = len(next(iter(columns.values())))
     place = np.array([np.log(columns[key]) for key in numbers]).reshape(len(numbers), count)
-    kind = _groups(columns, tuple(key for key in keys if key not in numbers))
+    kind = groups_of(columns, tuple(key for key in keys if key not in numbers))
     is_compared = result.plan.scene.numerics.model in COMPARED_MODELS
     return place, kind if is_compared else np.full(count, -1)
 
 
-def _correlation(points: _Points, row: int) -> np.ndarray:
+def _correlation(points: ComparedPoints, row: int) -> np.ndarray:
     """Return the correlation of the model-form error of each of ``points`` with that in ``row``, (n,)."""
     distance = np.abs(points.place - points.place[:, [row]]).sum(axis=0)
     multiple = np.maximum(distance / COMPARED_DISTANCE, 1.0)
@@ -326,7 +326,7 @@ def _correlation(points: _Points, row: int) -> np.ndarray:
     return np.where(is_alike, correlation, 0.0)
 
 
-def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray:
+def groups_of(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray:
     """Return the number of the combination of the values of ``keys`` of each point, in the order in which they occur,
     (n,)."""
     count = len(next(iter(columns.values())))
@@ -335,12 +335,19 @@ def _groups(columns: dict[str, np.ndarray], keys: tuple[str, ...]) -> np.ndarray
     return np.array([numbers.setdefault(tuple(row), len(numbers)) for row in rows], dtype=int)
 
 
-def _ranked(points: _Points) -> tuple[int, np.ndarray]:
+def _ranked(points: ComparedPoints) -> tuple[int, np.ndarray]:
     """Return which of ``points`` has the lowest value, and which others cannot be distinguished from it, the lowest
     first."""
     value = points.value
     order = np.argsort(value, kind="stable")
     lowest = int(order[0])
+    are_distinct = value - value[lowest] > error_of_differences(points, lowest)
+    return lowest, np.array([row for row in order[1:] if not are_distinct[row]], dtype=int)
+
+
+def error_of_differences(points: ComparedPoints, lowest: int) -> np.ndarray:
+    """Return by how much the differences of all ``points`` from the one in the row ``lowest`` may be smaller at 95 %,
+    (n,): the errors of both by the sides of the intervals that face each other, without what they have in common."""
     shared = np.abs(points.by_inputs - points.by_inputs[:, [lowest]]).max(axis=0)
     apart = np.hypot(points.by_inputs[1, lowest], points.by_inputs[0])
     by_inputs = np.where(points.inputs == points.inputs[lowest], shared, apart)
@@ -348,8 +355,7 @@ def _ranked(points: _Points) -> tuple[int, np.ndarray]:
     above = points.by_model[1, lowest]
     below = points.by_model[0]
     by_model = np.sqrt(above**2 + below**2 - 2.0 * _correlation(points, lowest) * above * below)
-    are_distinct = value - value[lowest] > np.sqrt(own**2 + by_model**2 + by_inputs**2)
-    return lowest, np.array([row for row in order[1:] if not are_distinct[row]], dtype=int)
+    return np.asarray(np.sqrt(own**2 + by_model**2 + by_inputs**2))
 
 
 def _at(columns: dict[str, np.ndarray], keys: tuple[str, ...], row: int) -> dict[str, Any]:

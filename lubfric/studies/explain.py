@@ -343,6 +343,6 @@ def _range(key: str, values: tuple[Any, ...]) -> str:
     """Return the values of a key, each once: all if they are few, else the smallest and the largest, or first and last."""
     if len(values) > LISTED and all(isinstance(value, Real) for value in values):
         return " to ".join(dict.fromkeys(_range(key, (end,)) for end in (min(values), max(values))))
-    words = list(dict.fromkeys(worded_value(key, v) if isinstance(v, float) else str(v) for v in values))
+    words = list(dict.fromkeys(worded_value(key, v) for v in values))
     shown = words if len(words) <= LISTED else (words[0], "...", words[-1])
     return ", ".join(shorten(text, 50, placeholder="...") for text in shown)

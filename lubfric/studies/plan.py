@@ -33,6 +33,7 @@ from .vary import (
     axes_of,
     check_viscosity,
     names_varied,
+    notes_of_coefficient,
     notes_of_sliding,
     sample,
     unit_of,
@@ -199,7 +200,7 @@ def plan_study(
             axes=axes,
             speeds=requested_speeds(scene, speeds),
             keys=tuple(_scene_keys(scene, axes)),
-            notes=notes,
+            notes=(*notes, *notes_of_coefficient(scene, axes)),
         )
     if speeds is not None:
         raise InputError("points and speeds both give speeds; omit speeds, and give a column speed in points")
@@ -218,7 +219,7 @@ def plan_study(
         speeds=(),
         point_speeds=table.speeds,
         coordinates=table.coordinates,
-        notes=(*notes, *table.notes),
+        notes=(*notes, *table.notes, *notes_of_coefficient(scene, axes)),
         keys=tuple(_scene_keys(scene, axes)),
     )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base import figures
-from ..quantities import COLUMNS, axis_label
+from ..quantities import COLUMNS, axis_label, worded_value
 from .operating_points import INTERVAL_COLUMNS
 from .plan import StudyPlan
 from .points import SPEED
@@ -230,7 +230,11 @@ def _values_over(result: Any, over: str) -> tuple[np.ndarray, str]:
     if over == SPEED:
         return np.zeros(0), axis_label(SPEED)
     values = result.coords[over][1]
-    return shown_numbers(over, values) if values.dtype.kind in "fi" else (values, name_of(over))
+    return (
+        shown_numbers(over, values)
+        if values.dtype.kind in "fi"
+        else (np.array([worded_value(over, value) for value in values.tolist()]), name_of(over))
+    )
 
 
 def _draw_intervals(

@@ -156,7 +156,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     gaps: dict[str, Any] = {"color": figures.GREY, "alpha": 0.12, "lw": 0, "label": "the sliding changes its direction"}
     for index in indices:
         values = times * result[quantity][index][order]
-        breaks = _changes_of_direction(result, index)[order] if quantity in OF_SLIDING else np.zeros(0)
+        breaks = _directions_of_sliding(result, index)[order] if quantity in OF_SLIDING else np.zeros(0)
         turns = np.flatnonzero(np.diff(breaks)) + 1  # before these points the direction changes
         ends = turns if coordinate else np.arange(1, count)  # before these a line ends
         for end in turns if coordinate and index == indices[0] else ():
@@ -180,7 +180,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     return axes
 
 
-def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
+def _directions_of_sliding(result: Any, index: tuple[int, ...]) -> np.ndarray:
     """Return the direction of sliding, of u2 - u1 (-1, 0, 1), of the operating points at the position ``index`` along
     the other axes."""
     senses = np.sign(result.plan.point_speeds)
@@ -190,6 +190,17 @@ def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
             return senses * np.sign(ratios)
         return senses * np.sign(ratios[index[result.dims.index(dim)]])
     return np.zeros(result.status.shape[-1])
+
+
+def pairs_around_reversals(result: Any, index: tuple[int, ...]) -> list[tuple[int, int]]:
+    """Return the pairs of operating points, by their place in the table from 0, that are neighbours over the position,
+    angle or time and slide in opposite directions, at the position ``index`` along the other axes."""
+    coordinate = next((name for name in ORDERED_BY if name in result.coords), None)
+    if coordinate is None:
+        return []
+    order = np.argsort(result.coords[coordinate][1], kind="stable")
+    senses = _directions_of_sliding(result, index)[order]
+    return [(int(order[i]), int(order[i + 1])) for i in np.flatnonzero(senses[:-1] * senses[1:] < 0)]
 
 
 def _lone(ends: np.ndarray, count: int) -> list[int]:

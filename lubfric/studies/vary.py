@@ -1,7 +1,7 @@
 """What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -11,7 +11,7 @@ import numpy as np
 
 from .._base import FloatArray, validate, with_default_errors
 from ..errors import InputError
-from ..quantities import KEYS
+from ..quantities import KEYS, worded_value
 from ..scene import SOURCES, Roughness, Scene, other_convention, short_keys, typical
 from ..units import check_all_have_units, in_si, without_unit
 from .distributions import Normal
@@ -31,6 +31,8 @@ TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITY = "lubricant.viscosity"
 PRESSURE_VISCOSITY = "lubricant.pressure_viscosity_coefficient"
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
+# Keys that change what the pressure-viscosity coefficient of an oil is, but a named oil, which brings its own.
+OF_COEFFICIENT = TEMPERATURES | VISCOSITIES - {"lubricant", "lubricant.oil", VISCOSITY}
 FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
 VARIED_SECTIONS = (*FITTED, "counterface", "contact", "numerics")
 VARIED_SLIDING = {"motion", "motion.slide_roll_ratio", "motion.slip_percent"}  # keys of the sliding
@@ -259,6 +261,23 @@ def check_viscosity(scene: Scene, varied: Iterable[set[str]]) -> None:
         recommendation="vary lubricant.nu40, lubricant.grade or lubricant.temperature, or give "
         f"{VISCOSITY} and {PRESSURE_VISCOSITY} as numbers",
     )
+
+
+def notes_of_coefficient(scene: Scene, axes: Sequence[Axis]) -> Iterator[str]:
+    """Yield that a pressure-viscosity coefficient that the scene gives stays the same while ``axes`` vary its oil or the
+    temperature, in a sentence. Another named oil brings its own coefficient."""
+    oil = scene.lubricant.oil
+    if oil is None or oil.alpha is None or any(PRESSURE_VISCOSITY in names for names in names_varied(axes)):
+        return
+    columns = {key: values for axis in axes for key, values in zip(axis.keys, zip(*axis.values))}
+    varied = [key for key, values in columns.items() if key in OF_COEFFICIENT and len(set(map(repr, values))) > 1]
+    if varied and "lubricant.oil" not in columns:
+        keys = " and ".join(varied)
+        yield (
+            f"{PRESSURE_VISCOSITY} = {worded_value(PRESSURE_VISCOSITY, oil.alpha)} is used at all values of {keys}, but "
+            "differs between oils and falls with the temperature; omit it, so that it is estimated at each of them, or "
+            "give a value for each, in [[together]] with them or as a column of the operating points"
+        )
 
 
 def _names_in(values: dict[str, Any]) -> set[str]:
