@@ -140,6 +140,15 @@ def worded(value: Any, unit: str) -> str:
     return f"{text} {printed(name)}".rstrip()
 
 
+def range_in_words(low: Any, high: Any, unit: str) -> str:
+    """Return "300 to 700 N", or one number where both are alike; of pairs "5 and 20 µm to 20 and 80 µm"."""
+    if worded(low, unit) == worded(high, unit):
+        return worded(high, unit)
+    if isinstance(low, tuple):
+        return f"{worded(low, unit)} to {worded(high, unit)}"
+    return worded((low, high), unit).replace(" and ", " to ")
+
+
 def with_interval(value: float, low: float, high: float, level: str = " at 95 %", unit: str = "-") -> str:
     """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to
     3.43 W at 95 %)".

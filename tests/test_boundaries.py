@@ -115,6 +115,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "models_cheaper_than",
         "models_that_may_answer",
         "models_up_to",
+        "model_named",
         "title_of",
         "title_to_quote",
     }

@@ -25,6 +25,7 @@ from .inputs_to_quote import (
     span_to_quote,
     varied_to_quote,
 )
+from .length_ranges import QuickFriction, scenes_at_ends
 from .methods import MethodUse, methods_of
 from .power import power_of_forces
 from .ranges import with_input_ranges

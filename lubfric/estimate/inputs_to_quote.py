@@ -11,7 +11,7 @@ from ..quantities import COLUMNS, KEYS, worded_value
 from ..samples import rough_bodies, takes_strips
 from ..scene import BOUNDARY_FILM, FRICTION_OVER, HISTORIES, FrictionTable, Roughness, Scene, materials_of
 from ..surface import PER_SQ, Surface
-from ..units import worded
+from ..units import range_in_words, worded
 
 # Methods by which a pressure-viscosity coefficient is estimated (`lubfric.oil.Oil.pressure_viscosity_coefficient`).
 ESTIMATED_BY = ("gold", "so-klaus")
@@ -219,7 +219,7 @@ def _range(scene: Scene, key: str) -> str:
     """Return the range to which the value of a ``key`` is known, as text behind it; "" where it is exact."""
     for name, low, high in scene.ranges:
         if name == key:
-            return f" (range {worded((low, high), KEYS[key].unit).replace(' and ', ' to ')})"
+            return f" (range {range_in_words(low, high, KEYS[key].unit)})"
     return ""
 
 
@@ -239,7 +239,7 @@ def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_
             ra = f" (Ra {worded(PER_SQ['ra'] * rough.sq, 'm')})" if _has_gaussian_heights(rough) else ""
             yield f"{nominal}Sq{name} {worded(rough.sq, 'm')}{ra}{_range(scene, f'{section}.sq')}"
         if rough.file is None:
-            yield from _generated(rough, name)
+            yield from _generated(rough, name, _range(scene, f"{section}.correlation_length"))
     if scene.counterface is None:
         yield "smooth counterface"
 
@@ -272,12 +272,13 @@ def _map_in_words(rough: Roughness, surface: Surface | None) -> str:
     return f" ({', '.join(facts)})"
 
 
-def _generated(rough: Roughness, name: str) -> Iterator[str]:
-    """Yield how a map was generated; ``name``: of the body, behind each quantity."""
+def _generated(rough: Roughness, name: str, of_length: str) -> Iterator[str]:
+    """Yield how a map was generated; ``name``: of the body, behind each quantity; ``of_length``: the range of its
+    correlation length, behind it."""
     if rough.correlation_length is not None:
         length = worded(rough.correlation_length, "m")
         level = "" if rough.decay_level == Roughness.decay_level else f", {rough.decay_level:.4g} at this length"
-        yield f"correlation length{name} {length} ({rough.acf} autocorrelation{level})"
+        yield f"correlation length{name} {length}{of_length} ({rough.acf} autocorrelation{level})"
     heights = [
         f"{key.capitalize()} {worded(getattr(rough, key), 'm')}" for key in HEIGHTS_OF_HONED if rough.sk is not None
     ]

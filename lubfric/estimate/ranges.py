@@ -1,14 +1,15 @@
 """Inputs of which only a range is known: how the two ends of each range change f and its interval."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from .._base.jobs import map_parts
 from ..errors import ConvergenceError
 from ..models import ModelAnswer
-from ..models.shared import UNKNOWN_SIDES, Prepared, Sides, added_changes
-from ..scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, Scene, value_of
+from ..models.shared import UNKNOWN_SIDES, Prepared, Sides, added_changes, percent
+from ..scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, LENGTH_KEYS, Scene, value_of
+from .length_ranges import ChangeByLength, change_by_lengths
 from .uncertainty import Uncertainty, with_part
 
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
@@ -22,24 +23,29 @@ LEAST_OF_THREE_DIGITS = 99.5
 
 GIVEN_CONTACT = "the contact was given by the caller"
 NO_ENDS = "this model does not solve the ends of its range"
+WITH_ERROR = ", with the error of this change by the quick model, at most {} of f there"
 NOT_CONVERGED = "the solve at an end of its range did not converge"
 
 
-def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
+def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | ChangeByLength | str]:
     """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; where these are not known,
     why.
 
     f is linear in f_b at a given division of the load. At each end of every other range it is solved again, by the
     model of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows its change there from its solution
     (`ModelAnswer.change_without_solve`). The changes are relative to the middle on the same cells. An end that cannot
-    be solved, and the hardness of a contact that is not lubfric's own, are not known.
+    be solved, and the hardness of a contact that is not lubfric's own, are not known. The correlation lengths of both
+    bodies change f together (`change_by_lengths`), and the first of them has the change.
     """
     scene = prepared.scene
-    changes_of_f: dict[str, tuple[float, ...] | str] = {}
+    changes_of_f: dict[str, tuple[float, ...] | ChangeByLength | str] = {}
     without_solve: dict[str, tuple[float | None, ...]] = {}
     to_solve: list[Scene] = []
+    (*of_lengths,) = (name for name, *_ in scene.ranges if name in LENGTH_KEYS)
     for name, *ends in scene.at_ends():
-        if name == BOUNDARY_FRICTION_KEY:
+        if name in of_lengths:
+            changes_of_f[name] = change_by_lengths(prepared, answer) if name == of_lengths[0] else (0.0, 0.0)
+        elif name == BOUNDARY_FRICTION_KEY:
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
             slope = load_ratio if scene.motion.slide_roll_ratio != 0 else 0.0
             changes_of_f[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
@@ -118,22 +124,26 @@ def _changes_in_words(ends: tuple[float, ...], f: float) -> Iterator[str]:
         yield f"{' to '.join(map(_signed, (min(percents), max(percents))))} %"
 
 
-def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
+def with_input_ranges(
+    old: Uncertainty, changes_of_f: Mapping[str, tuple[float, ...] | ChangeByLength | str]
+) -> Uncertainty:
     """Return ``old`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
 
     Those of several inputs add up as squares, below and above f for themselves. One that is not known leaves ``inputs``
     NaN, and a note.
     """
     f = old.coefficient
-    moved = {name: ends for name, ends in changes_of_f.items() if not isinstance(ends, str)}
-    below, above = added_changes(moved.values())
+    moved: dict[str, tuple[float, ...]] = {}
     notes = []
-    for name, ends in changes_of_f.items():
+    for name, change in changes_of_f.items():
         begin = f"range of {name.partition('.')[2]}: "
-        if not isinstance(ends, str):
-            notes += [f"{begin}f {change}" for change in _changes_in_words(ends, f)]
-        else:
-            notes.append(f"{begin}not in the interval, as {ends}")
+        if isinstance(change, str):
+            notes.append(f"{begin}not in the interval, as {change}")
+            continue
+        moved[name] = change.ends if isinstance(change, ChangeByLength) else change
+        with_error = WITH_ERROR.format(percent(change.error)) if isinstance(change, ChangeByLength) else ""
+        notes += [f"{begin}f {words}{with_error}" for words in _changes_in_words(moved[name], f)]
+    below, above = added_changes(moved.values())
     largest = max(below, above)
     relative = 0.0
     if f:

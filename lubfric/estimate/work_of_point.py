@@ -6,7 +6,15 @@ from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from ..models import AUTO, MeasuredTime, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
+from ..models import (
+    AUTO,
+    MeasuredTime,
+    Model,
+    SharedWork,
+    WorkEstimate,
+    models_that_may_answer,
+    models_up_to,
+)
 from ..models.shared import (
     ExpectedViolations,
     Violation,
@@ -17,6 +25,7 @@ from ..models.shared import (
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
+from .length_ranges import MODEL_OF_ENDS, solves_of_lengths
 
 # What is known where no time of strips is measured. By definition.
 NOT_MEASURED: Mapping[str, MeasuredTime] = MappingProxyType({})
@@ -108,6 +117,7 @@ def _estimate_of_point(scene: Scene, sample: Sample, speed: float, estimates: li
     line = estimates[max(with_line, default=0)]
     answering = max((k for k in solved if estimates[k].has_answer), default=0)
     with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
+    of_lengths = _seconds_of_lengths(scene, estimates, answering)
     return PointWorkEstimate(
         speed=speed,
         model=models[answering],
@@ -116,7 +126,7 @@ def _estimate_of_point(scene: Scene, sample: Sample, speed: float, estimates: li
         strips=line.strips,
         length=line.length,
         slow_strips=max((estimates[k].strips for k in with_slow_strips if k in solved), default=0),
-        seconds=sum(estimates[k].seconds for k in solved) + estimates[answering].ends_seconds,
+        seconds=sum(estimates[k].seconds for k in solved) + estimates[answering].ends_seconds + of_lengths,
         fine_fields_seconds=estimates[answering].fine_fields_seconds,
         shared=tuple(part for k in solved for part in estimates[k].shared),
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
@@ -155,6 +165,18 @@ def expected_violations(
         )
     )
     return (*expected, *more, *starved, *heated)
+
+
+def _seconds_of_lengths(scene: Scene, estimates: Sequence[WorkEstimate], answering: int) -> float:
+    """Return the processor time [s] of the ranges of correlation lengths, which the quick model solves, or load sharing
+    in its place; ``answering``: the number of the model that answers, which has solved the value itself if it is the
+    quick one."""
+    ends = solves_of_lengths(scene)
+    if not ends:
+        return 0.0
+    (quick,) = (k for k, model in enumerate(models_up_to(AUTO)) if model.name == MODEL_OF_ENDS)
+    one = estimates[quick].seconds or estimates[0].seconds
+    return one * (ends + (answering != quick))
 
 
 def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:

@@ -7,7 +7,7 @@ from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
 from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, sampled_times, source_of, typical
 from ..time import first_largest, scene_at
-from ..units import worded
+from ..units import range_in_words, worded
 
 # Keys that mean nothing where a history of this name is given.
 REPLACED = {"motion.slide_roll_ratio": "sliding"}
@@ -68,12 +68,6 @@ def over_the_run(scene: Scene, name: str, constant: float, unit: str) -> str:
         return worded(constant, unit)
     low, high = history.range(scene.transient.duration)
     return range_in_words(low, high, unit)
-
-
-def range_in_words(low: float, high: float, unit: str) -> str:
-    """Return "300 to 700 N", or one number where both are alike."""
-    alike = worded(low, unit) == worded(high, unit)
-    return worded(high, unit) if alike else worded((low, high), unit).replace(" and ", " to ")
 
 
 def input_rows(scene: Scene, section: str) -> list[str]:

@@ -8,8 +8,8 @@ from typing import Any
 from ..models.shared import sentence
 from ..quantities import KEYS
 from ..scene import OIL_KEYS, SOURCES, Scene, fields_of_key, short_keys, toml_value
-from ..units import worded
-from .inputs import FACTS, inputs, range_in_words
+from ..units import range_in_words, worded
+from .inputs import FACTS, inputs
 from .markup import bullets, row_with_key, table
 
 # A radius that is infinite: the one input that may be.

@@ -40,7 +40,7 @@ from .plausible import (
     typical,
     unusual_values,
 )
-from .roughness import Roughness, named
+from .roughness import LENGTH_KEYS, Roughness, named
 from .scene import (
     Scene,
     check_resolved_gap,

@@ -18,6 +18,7 @@ OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": 
 OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
 HONED = ("sk", "spk", "svk", "honing_angle", "groove_width")  # fields of a plateau-honed map
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize", *HONED)  # fields of a generated map
+LENGTH_KEYS = ("surface.correlation_length", "counterface.correlation_length")  # whose value may be a pair
 SAME_SQ = 1e-9  # relative difference of two Sq that are one; a choice, above rounding
 
 
@@ -166,6 +167,21 @@ def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     if old is not None and old.file is not None and values.get("file", old.file) is None:
         return dict.fromkeys(name for name in changed(old) if name not in ("sq", *GENERATED)) | values
     return values
+
+
+def lengths_in_range(name: str, given: Any) -> tuple[Any, tuple[Any, Any] | None]:
+    """Return the correlation length ``given`` for the key ``name`` (section.key), one [m] or a pair, and its range: of
+    three parts the last two, of anything else None. Raise `InputError` for three that are no [value, low, high]."""
+    if not isinstance(given, (list, tuple)):
+        return given, None
+    is_pair = [isinstance(part, (list, tuple)) for part in given]
+    if len(given) < 3 and not any(is_pair):
+        return given, None
+    if len(given) != 3 or any(is_pair) != all(is_pair):
+        allowed = "a length, a pair [along x, along y], or [value, low, high] of three lengths or three pairs"
+        raise InputError(f" = {validate.shown(given)}", name, allowed)
+    (value, low, high) = (lengths(name, part) for part in given)
+    return value, (low, high)
 
 
 def checked_unit(name: str, value: Any) -> str | tuple[str, ...]:

@@ -10,6 +10,8 @@ from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .._base import Shown, changed, validate
 from ..errors import InputError
 from ..film import LineContact
@@ -19,7 +21,7 @@ from .bodies import BOUNDARY_FILM_KEY, Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
 from .plausible import doubtful_values
-from .roughness import Roughness
+from .roughness import LENGTH_KEYS, Roughness
 from .sections import ROUGH_SECTIONS, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of, fields_of_key
 from .transient import HISTORY_KINDS, Transient
@@ -54,7 +56,8 @@ class Scene(Shown):
         contact
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
-    ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
+    ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends.
+        Those of a correlation length are pairs where it is one
     doubtful : (section.key, value as written) of values outside their usual range, and of a sliding that may have been
         meant as a percentage instead of a ratio, or the reverse. It affects no number
     """
@@ -69,7 +72,7 @@ class Scene(Shown):
     name: str = "unnamed"
     transient: Transient | None = None
     counterface: Roughness | None = None
-    ranges: tuple[tuple[str, float, float], ...] = ()
+    ranges: tuple[tuple[str, Any, Any], ...] = ()
     doubtful: tuple[tuple[str, Any], ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
@@ -107,9 +110,10 @@ class Scene(Shown):
         for name, low, high in self.ranges:
             section, _, key = name.partition(".")
             value = value_of(self, name)
-            if not low <= value <= high or low == high:
-                message = f" = {value:g} in {low:g} to {high:g}"
-                allowed = "[low, high] or [value, low, high], with the value between both ends"
+            if not _is_within(value, low, high) or low == high:
+                message = f" = {validate.shown(value)} in {validate.shown(low)} to {validate.shown(high)}"
+                forms = "" if name in LENGTH_KEYS else "[low, high] or "
+                allowed = f"{forms}[value, low, high], with the value between both ends"
                 raise InputError(message, name, allowed)
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
@@ -120,7 +124,7 @@ class Scene(Shown):
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
         new: dict[str, Any] = {}
-        ranges: dict[str, tuple[float, float] | None] = {}
+        ranges: dict[str, tuple[Any, Any] | None] = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
                 near = validate.nearest(section, self.__dataclass_fields__)
@@ -277,9 +281,10 @@ def toml_value(value: Any) -> str:
 
 
 def value_of(scene: Scene, name: str) -> Any:
-    """Return the value of the key ``name`` (section.key)."""
+    """Return the value of the key ``name`` (section.key); None where the scene has no such section."""
     section, _, key = name.partition(".")
-    return getattr(getattr(scene, section), key)
+    part = getattr(scene, section)
+    return None if part is None else getattr(part, key)
 
 
 def inputs_not_given(scene: Scene) -> tuple[str, ...]:
@@ -295,7 +300,13 @@ def _stated_by(scene: Scene, name: str) -> tuple[Any, ...]:
     return values or (section,)
 
 
-def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
+def _is_within(value: Any, low: Any, high: Any) -> bool:
+    """Return whether ``value`` is from ``low`` to ``high``, of pairs each part."""
+    (values, lows, highs) = (np.atleast_1d(np.asarray(each, float)) for each in (value, low, high))
+    return values.shape == lows.shape == highs.shape and bool(np.all((lows <= values) & (values <= highs)))
+
+
+def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, Any, Any], ...]:
     """Return `Scene.ranges` of the ends by name, None where a value has no range."""
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 

@@ -12,7 +12,7 @@ from ..units import without_unit
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
 from .plausible import naming_slips, typical
-from .roughness import NEEDED, Roughness, as_given, named
+from .roughness import LENGTH_KEYS, NEEDED, Roughness, as_given, lengths_in_range, named
 from .short_forms import OF_AN_OIL, OIL_DEFAULTS, is_of_oil, resolve, short_keys, without_none
 from .transient import Transient
 
@@ -24,7 +24,7 @@ SECTIONS |= dict.fromkeys(ROUGH_SECTIONS, Roughness) | {
     "transient": Transient,
 }
 # Keys that may be a range though no name represents a typical value of them.
-RANGED_KEYS = ("lubricant.pressure_viscosity_coefficient",)
+RANGED_KEYS = ("lubricant.pressure_viscosity_coefficient", *LENGTH_KEYS)
 NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
 
 
@@ -84,12 +84,13 @@ def takes_range(name: str) -> bool:
     return name in RANGED_KEYS or bool(typical(name))
 
 
-def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:
+def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[Any, Any] | None]:
     """Return ``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is
     given).
 
     It may be text with a unit; a name that represents a typical value and its range (typical.toml); and for a key that
-    `takes_range` [low, high], whose middle is the value, or [value, low, high]. A key without a unit is used unchanged.
+    `takes_range` [low, high], whose middle is the value, or [value, low, high]; of a correlation length the latter
+    alone (`lengths_in_range`). A key without a unit is used unchanged.
     """
     name = f"{section}.{key}"
     if name not in KEYS:
@@ -102,6 +103,8 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     given = without_unit(name, validate.python_value(value), KEYS[name].unit, words)
     if isinstance(given, str) and given in known:
         given = known[given]
+    if name in LENGTH_KEYS:
+        return lengths_in_range(name, given)
     if not takes_range(name) or not isinstance(given, (list, tuple)):
         return given, None
     if len(given) not in (2, 3) or not all(type(v) in (int, float) for v in given):
@@ -113,7 +116,7 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     return (given[0] if len(given) == 3 else 0.5 * (low + high)), (float(low), float(high))
 
 
-def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None]:
+def ranges_of(section: str, values: Any) -> dict[str, tuple[Any, Any] | None]:
     """Return the ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one;
     of a complete section, None for all."""
     keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values

@@ -264,6 +264,8 @@ def test_info_and_report_tell_ranges_and_tables():
     ):
         rows = inputs(SMALL.with_(bodies=given), "bodies")
         stated |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
+    lengths = SMALL.with_(surface={"correlation_length": [[8e-6, 9e-6], [4e-6, 5e-6], [8e-6, 9e-6]]})
+    assert [note for *_, note in inputs(lengths, "surface") if note] == [", range 4 and 5 µm to 8 and 9 µm"]
     assert stated[FRICTION + "2"] == ", range 0.1 to 0.14" and stated[HARDNESS + "1"] == ""
     assert stated[HARDNESS + "2"] == ", range 5 to 7 GPa"
     assert stated[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"

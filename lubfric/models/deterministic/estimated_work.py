@@ -11,6 +11,7 @@ from ...samples import PIECE_LENGTH, Sample
 from ...scene import (
     BOUNDARY_FRICTION_KEY,
     HARDNESS_KEY,
+    LENGTH_KEYS,
     Scene,
     has_moving_roughness,
     moving_bodies,
@@ -611,7 +612,7 @@ def _solved_ends(scene: Scene, surface: Surface, speed: float) -> float:
             number += solved_ends_of_hardness(scene, surface, speed)
         elif name in OF_SHEAR and is_moving:
             number += solved_ends_of_shear(scene, surface.sq, speed, name)
-        elif name != BOUNDARY_FRICTION_KEY:
+        elif name not in (BOUNDARY_FRICTION_KEY, *LENGTH_KEYS):  # these are solved by the quick model
             number += 2.0
     return number
 

@@ -11,7 +11,7 @@ import numpy as np
 from ...film import LineContact, flooded_inlet, smallest_film
 from ...oil import shear_stress
 from ...samples import PIECE_LENGTH, Cells, Sample
-from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness
+from ...scene import BOUNDARY_FRICTION_KEY, LENGTH_KEYS, Scene, has_moving_roughness
 from ...surface import GROOVE_LENGTH_RATIO, Surface
 from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, inlet_at, is_smooth_over_cells
 from ..work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
@@ -211,8 +211,9 @@ def _times_by_heat(scene: Scene) -> float:
 
 def _ends(scene: Scene) -> int:
     """Return how many points the ends of the input ranges of ``scene`` take, which the answer solves on its first
-    strips: f at each end, and at the inputs themselves to begin with and to compare with."""
-    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
+    strips: f at each end, and at the inputs themselves to begin with and to compare with. The quick model solves those
+    of correlation lengths."""
+    ends = 2 * sum(name not in (BOUNDARY_FRICTION_KEY, *LENGTH_KEYS) for name, *_ in scene.ranges)
     return ends + 2 if ends else 0
 
 
