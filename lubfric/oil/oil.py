@@ -77,13 +77,17 @@ class Oil(Shown):
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
         some 0.5 % between 0 and 100 °C.
         """
-        slope = BASES[self.base]["density_slope"] if self.density_slope is None else self.density_slope
-        return at_each(lambda t: self.density_15 - slope * (checked_temperature(t) - AT_15), temperature)
+        return at_each(lambda t: self.density_15 - self.density_fall * (checked_temperature(t) - AT_15), temperature)
 
     @property
     def density_15(self) -> float:
         """Return density at 15 °C [kg/m³]: given, or typical of the base oil (within 5 %)."""
         return BASES[self.base]["density"] if self.density is None else self.density
+
+    @property
+    def density_fall(self) -> float:
+        """Return the decrease of the density with the temperature [kg/(m³ K)]: given, or typical of the base oil."""
+        return BASES[self.base]["density_slope"] if self.density_slope is None else self.density_slope
 
     @property
     def thermal_conductivity(self) -> float:

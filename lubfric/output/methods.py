@@ -77,7 +77,8 @@ def made_table(record: dict[str, Any]) -> str:
         ("solver", record["report"]["solver"]),
     ]
     note = (
-        "<p>resolved.toml contains the scene with all defaults. In its folder, "
+        "<p>resolved.toml contains the scene with all defaults; comments there state numbers that follow from its keys, "
+        "and values of lubfric in place of keys that are not given. In its folder, "
         f"<code>{escape(record['command'])}</code> computes the same numbers with the versions and height maps "
         "below.</p>"
     )

@@ -122,6 +122,14 @@ class Roughness(Shown):
             raise InputError(message, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
         return sq
 
+    @property
+    def applicable(self) -> dict[str, Any]:
+        """The fields with a value that apply to this kind of map, from a file or generated, by name."""
+        names = [
+            name for name in self.__dataclass_fields__ if (name in GENERATED) == (self.file is None) or name == "sq"
+        ]
+        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+
 
 @contextmanager
 def in_section(section: str) -> Iterator[None]:

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown, changed, validate
+from .._base import Shown, validate
 from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
 from ..quantities import worded_value
 from .bodies import BOUNDARY_FILM_KEY, Bodies, ContactDomain, Motion
+from .comments import comments_of
 from .history import History
 from .numerics import Numerics
 from .plausible import doubtful_values
@@ -200,10 +201,10 @@ class Scene(Shown):
         """Return the complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same
         numbers.
 
-        Defaults are written except those of a roughness, and what is None is omitted. A ``surface.file`` is written
-        with its complete path, or relative to the ``folder`` of the scene file where that is given; and an oil as it
-        was given, instead of its numbers at the temperature. Raises `InputError` for a history that scene files do not
-        have.
+        Defaults are written, and what is None is omitted. A ``surface.file`` is written with its complete path, or
+        relative to the ``folder`` of the scene file where that is given; and an oil as it was given. Comments have its
+        numbers at the temperature, the names of materials, and values of lubfric's own that no key states. Raises
+        `InputError` for a history that scene files do not have.
         """
         lines = [f"name = {toml_value(self.name)}"]
         for section in SECTIONS:
@@ -211,13 +212,15 @@ class Scene(Shown):
             if part is None:
                 continue
             lines += ["", f"[{section}]"]
-            keys = changed(part) if section in ROUGH_SECTIONS else {f.name: getattr(part, f.name) for f in fields(part)}
+            is_rough = section in ROUGH_SECTIONS
+            keys = part.applicable if is_rough else {f.name: getattr(part, f.name) for f in fields(part)}
             if keys.get("limiting_stress_coefficient", 0.0) is None:
                 del keys["limiting_stress_offset"]  # refused where it does nothing
             if keys.get("oil") is not None:
                 oil = keys.pop("oil")  # in place of the numbers that follow from it
                 followed = fields_of(oil, keys["temperature"]) | {"temperature": ...}
-                keys = oil.given_keys | {key: value for key, value in keys.items() if followed.get(key, ...) != value}
+                others = {key: value for key, value in keys.items() if followed.get(key, ...) != value}
+                keys = oil.given_keys | {"density_law": keys["density_law"]} | others
             table = keys.pop("boundary_friction_table", None)
             if table is not None:
                 keys["boundary_friction_coefficient"] = {table.over: table.at, "values": table.values}
@@ -226,9 +229,9 @@ class Scene(Shown):
                     keys[name.partition(".")[2]] = (value_of(self, name), low, high)
             if "file" in keys:
                 keys["file"] = _map_in_words(keys["file"], folder)
-            lines += [
-                f"{key} = {toml_value(value)}" for key, value in keys.items() if value is not None and value != ()
-            ]
+            keys = {key: value for key, value in keys.items() if value is not None and value != ()}
+            lines += [f"{key} = {toml_value(value)}" for key, value in keys.items()]
+            lines += [f"# {comment}" for comment in comments_of(section, part, keys)]
         return "\n".join(lines) + "\n"
 
     def _facts(self) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import json
 import tomllib
-from dataclasses import replace
+from dataclasses import MISSING, fields, replace
 from html import unescape
 
 import numpy as np
@@ -333,6 +333,47 @@ def test_a_scene_comes_back_from_its_text(name):
     scene = lubfric.load_scene(name)
     table = tomllib.loads(scene.to_toml())
     assert lubfric.load_scene(table) == scene
+
+
+OF_GENERATED_MAPS = {"correlation_length", "acf", "decay_level", "seed", "oversize"}  # typed by hand
+OF_FILES = {"motion_axis", "form", "outliers", "extension"}
+
+
+@pytest.mark.parametrize("kind", ["numbers", "oil", "measured map"])
+def test_the_text_of_a_scene_has_every_key_with_a_default(kind, tmp_path):
+    """As a key, or in a comment where a key would make it another scene; a run of it is the same to the last bit."""
+    scene = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
+    absent = OF_FILES
+    if kind == "oil":
+        scene = scene.with_(
+            bodies={"material": ["100Cr6", "silicon nitride"]}, lubricant={"oil": "mineral-32", "temperature": 313.15}
+        )
+    if kind == "measured map":
+        np.save(tmp_path / "map.npy", 1e-7 * np.random.default_rng(0).normal(size=(8, 8)))
+        contact = {"shape": None, "spacing": None}
+        scene = scene.with_(surface={"file": str(tmp_path / "map.npy"), "spacing": 1e-6, "unit": "m"}, contact=contact)
+        absent = OF_GENERATED_MAPS
+    (tmp_path / "resolved.toml").write_text(scene.to_toml(), encoding="utf-8")
+    section = ""
+    stated: dict[str, set[str]] = {}
+    values = {}
+    for line in scene.to_toml().splitlines():
+        section = line.strip("[]") if line.startswith("[") else section
+        (key, is_given, value) = line.removeprefix("# ").partition(" = ")
+        stated.setdefault(section, set()).update({key} if is_given else ())
+        values[key] = value.partition(" [")[0]
+    for section in ("bodies", "lubricant", "motion", "surface", "contact", "numerics"):
+        part = getattr(scene, section)
+        with_default = {
+            f.name for f in fields(part) if f.default is not MISSING and getattr(part, f.name) not in (None, ())
+        }
+        without_effect = absent | {"limiting_stress_offset"}
+        assert with_default - stated[section] <= without_effect | {"oil"} and not absent & stated[section]
+    assert float(values["boundary_film"]) == 20e-9 and float(values["film_tolerance"]) == 0.003
+    assert float(values["viscosity"]) == scene.lubricant.viscosity
+    assert kind != "oil" or float(values["temperature_coefficient"]) == scene.lubricant.temperature_coefficient
+    assert ("those of the material 100Cr6 and silicon nitride" in scene.to_toml()) == (kind == "oil")
+    assert lubfric.load_scene(tmp_path / "resolved.toml") == scene
 
 
 def test_histories_come_back_from_their_text():
