@@ -12,8 +12,8 @@ from .materials import materials_of
 from .numerics import Numerics
 from .short_forms import fields_of
 
-OF_DEFAULT = "not given: the value of lubfric"
-OF_AN_OIL = "by the oil"
+VALUE_OF_LUBFRIC = "not given: the value of lubfric"
+BY_OIL = "by the oil"
 
 
 def comments_of(section: str, part: Any, written: Collection[str]) -> Iterator[str]:
@@ -31,7 +31,9 @@ def comments_of_bodies(bodies: Bodies) -> Iterator[str]:
         names = " and ".join(dict.fromkeys(materials))
         yield f"e_prime, conductivity and volumetric_heat are those of the material {names}"
     if bodies.boundary_film is None:
-        reason = f"{OF_DEFAULT}; a key here would remove its range, half to twice the value, from the interval of f"
+        reason = (
+            f"{VALUE_OF_LUBFRIC}; a key here would remove its range, half to twice the value, from the interval of f"
+        )
         yield _comment("bodies.boundary_film", BOUNDARY_FILM, reason)
     if bodies.hardness is None:
         yield "hardness is not given: elastic asperities, without a plastic limit"
@@ -43,7 +45,7 @@ def comments_of_oil(oil: Oil, temperature: float, written: Collection[str]) -> I
     density = {"density": oil.density_15, "density_slope": oil.density_fall}
     for key, value in {**fields_of(oil, temperature), **density}.items():
         if isinstance(value, float) and key not in written:
-            yield _comment(f"lubricant.{key}", value, OF_AN_OIL)
+            yield _comment(f"lubricant.{key}", value, BY_OIL)
 
 
 def comments_of_numerics(numerics: Numerics) -> Iterator[str]:
