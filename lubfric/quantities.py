@@ -460,9 +460,15 @@ def described(name: str, table: dict[str, Quantity] = COLUMNS) -> dict[str, str]
     return {"units": "1" if unit == "-" else unit, "long_name": label} if unit else {"long_name": label}
 
 
+# Names of columns in headings, where they differ: beside errors that are half of a 95 % interval, one that is a standard
+# error says so.
+NAMES_IN_TABLES = {"sampling_error": "sampling_standard_error"}
+
+
 def heading(name: str) -> str:
-    """Return the heading of a column: its name, and its unit in brackets; of words, the name alone."""
-    return f"{name} [{COLUMNS[name].unit}]" if name in COLUMNS else name
+    """Return the heading of a column: its name in tables (`NAMES_IN_TABLES`), and its unit in brackets; of words, the
+    name alone."""
+    return f"{NAMES_IN_TABLES.get(name, name)} [{COLUMNS[name].unit}]" if name in COLUMNS else name
 
 
 def axis_label(name: str, in_unit: str = "") -> str:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..quantities import NAMES_IN_TABLES
 from ..units import UNITS, converted, kind_of, spelled
 from .validate import nearest, shown
 
@@ -95,7 +96,9 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
     try:
         text = (Path(path).read_bytes() if content is None else content).decode()
         heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
-        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+        known = {shown_as: name for name, shown_as in NAMES_IN_TABLES.items()}
+        names = [name.split(" [")[0] for name in heading]
+        columns = {known.get(name, name): [row[i] for row in rows] for i, name in enumerate(names)}
         words = {n: np.array(c, str) for n, c in columns.items() if n in IN_WORDS}
         numbers = {n: np.array([cell or "nan" for cell in c], float) for n, c in columns.items() if n not in IN_WORDS}
         result = Columns({n: words[n] if n in IN_WORDS else numbers[n] for n in columns})

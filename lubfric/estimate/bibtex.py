@@ -27,6 +27,10 @@ ENTRY_KINDS = {"software": "misc"}
 BY_ORGANISATION = ("software", "techreport")
 
 
+# Letters and signs that old styles of BibTeX do not know, as TeX has them.
+IN_TEX = {"ä": r"{\"a}", "ñ": r"{\~n}", "ø": r"{\o}", "°C": "{$^\\circ$C}"}
+
+
 def source_in_words(source: dict[str, Any]) -> str:
     """Return a ``source`` as a line: "authors, place (year), doi:...: what for"."""
     year = source["year"]
@@ -63,14 +67,20 @@ def bibtex(sources: list[dict[str, Any]]) -> str:
 
 
 def _field(source: dict[str, Any], name: str) -> str:
-    """Return a field of an entry: pages with the dash of BibTeX, capitals of a title kept, authors joined by "and"."""
+    """Return a field of an entry in the letters of TeX: pages with the dash of BibTeX, capitals of a title kept, authors
+    joined by "and"."""
     value = source[name]
+    text = str(value)
     if name == "author":
-        names = " and ".join(value).replace("ø", r"{\o}")
-        return f"{{{names}}}" if source["type"] in BY_ORGANISATION else names
-    if name == "title":
-        return re.sub(r"(?<!°)\b(\w*[A-Z][\w.-]*)", r"{\1}", value).replace("°C", "{$^\\circ$C}")
-    return str(value).replace("-", "--") if name == "pages" else str(value)
+        names = " and ".join(value)
+        text = f"{{{names}}}" if source["type"] in BY_ORGANISATION else names
+    elif name == "title":
+        text = re.sub(r"(?<!°)\b(\w*[A-Z][\w.-]*)", r"{\1}", text)
+    elif name == "pages":
+        text = text.replace("-", "--")
+    for letter, in_tex in IN_TEX.items():
+        text = text.replace(letter, in_tex)
+    return text
 
 
 def _key(source: dict[str, Any]) -> str:

@@ -395,6 +395,9 @@ def test_degrees_and_letters_in_an_entry_are_of_latex():
     assert r"K. T{\o}nder" in cited(["generated map"], "bibtex") and "K. Tønder" in cited(["generated map"])
     entry = cited(["viscosity index"], "bibtex")
     assert "at 40 {$^\\circ$C} and 100 {$^\\circ$C}" in entry and "°" not in entry
+    every_entry = cited(packaged("lubfric.estimate", "papers.toml"), "bibtex")
+    assert every_entry.isascii() and r"{Beitr{\"a}ge}" in every_entry and r"Larra{\~n}aga" in every_entry
+    assert "{Journal and Proceedings of the Royal Society of New South Wales}" in cited(["flash"], "bibtex")
 
 
 def test_commands_write_the_sources_as_bibtex(tmp_path):

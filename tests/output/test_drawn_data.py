@@ -16,6 +16,7 @@ from scene_text import paper_scene
 from scipy.special import stdtrit
 
 import lubfric
+from lubfric._base import read_table
 from lubfric._base.figures import field_image, new_figure
 from lubfric.models import ContactFields
 from lubfric.output import (
@@ -607,6 +608,9 @@ def test_the_table_of_a_curve_has_the_units_of_its_numbers():
     curve = lubfric.stribeck(SCENE.with_(surface={"sq": 0.0, "correlation_length": 8e-6}), [1.0, 2.0])
     heading, *rows = list(csv.reader(io.StringIO(csv_bytes(curve).decode())))
     units = dict(name.removesuffix("]").split(" [") for name in heading if "[" in name)
+    assert "sampling_standard_error" in units and "sampling_error" not in units  # others are half of a 95 % interval
+    old = csv_bytes(curve).replace(b"sampling_standard_error", b"sampling_error")
+    assert list(read_table("old.csv", old)) == list(read_table("new.csv", csv_bytes(curve))) and b"standard" not in old
     assert units == {name: UNITS.get(name, "-") for name in units} and {*UNITS} <= {*units}
     for name in ("speed", "coefficient", "film_load", "couette_force", "rolling_force", "min_film", "central_film"):
         column = heading.index(f"{name} [{units[name]}]")
