@@ -19,6 +19,7 @@ from .friction import friction, most_work_of_estimate
 from .full_load import full_load_numbers
 from .inputs_to_quote import (
     dry_contact_to_quote,
+    grid_to_quote,
     inputs_to_quote,
     lubricated_contact_to_quote,
     roughness_to_quote,

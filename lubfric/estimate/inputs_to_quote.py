@@ -9,7 +9,19 @@ from ..models.shared import percent
 from ..oil import Lubricant, Oil
 from ..quantities import COLUMNS, KEYS, worded_value
 from ..samples import rough_bodies, takes_strips
-from ..scene import BOUNDARY_FILM, FRICTION_OVER, HISTORIES, FrictionTable, Roughness, Scene, materials_of
+from ..scene import (
+    BOUNDARY_FILM,
+    FRICTION_OVER,
+    HISTORIES,
+    SLIDE_ROLL_RATIO_KEY,
+    FrictionTable,
+    Roughness,
+    Scene,
+    materials_of,
+    source_of,
+    typical,
+    value_of,
+)
 from ..surface import PER_SQ, Surface
 from ..units import range_in_words, worded
 
@@ -65,7 +77,7 @@ def inputs_to_quote(
     rough bodies, before they are extended (`lubfric.samples.Sample.maps_before_extension`); ``has_given_map``: whether
     maps were given in place of those of the scene; ``has_sampling_error``: whether that of f is known at some point;
     ``takes_boundary_film``: as of the model (`lubfric.models.Model`)."""
-    texts = [*roughness_to_quote(scene, maps, has_given_map=has_given_map)]
+    texts = [*roughness_to_quote(scene, maps, has_given_map=has_given_map), *grid_to_quote(scene, maps)]
     if scene.numerics.sampling == "patch":
         texts.append("one patch of the surface in place of strips")
         texts += [] if has_sampling_error else ["sampling error of f not known"]
@@ -98,19 +110,27 @@ def dry_contact_to_quote(scene: Scene) -> Iterator[str]:
 
 
 def _domain(scene: Scene) -> Iterator[str]:
-    """Yield the shape and the grid of the rough contact, as far as ``scene`` gives them."""
+    """Yield the shape of the rough contact."""
     contact = scene.contact
     if contact.geometry == "flat":
         yield "contact load spread over a nominally flat Hertz strip"
-    elif contact.region == "box":
+    else:
+        yield "height map periodic along the line"
+    if contact.region == "box":
         yield "film and contact compared over the complete patch"
-    grid = []
-    if contact.shape is not None and not takes_strips(scene):
-        grid.append(f"{contact.shape[0]} x {contact.shape[1]} points")
-    if contact.spacing is not None:
-        grid.append(f"distance of the points {_lengths_in_words(contact.spacing)}")
-    if grid:
-        yield f"grid of the height map: {', '.join(grid)}"
+
+
+def grid_to_quote(scene: Scene, maps: Sequence[Surface]) -> Iterator[str]:
+    """Yield the grid of generated ``maps`` as it was solved, which may be another one than that of the scene's keys;
+    that of a map from a file is with its file."""
+    if not maps or any(rough.file is not None for rough, _ in rough_bodies(scene)):
+        return
+    (nx, ny) = maps[0].shape
+    steps = worded(tuple(dict.fromkeys(maps[0].spacing)), "m").replace(" and ", " x ")
+    if takes_strips(scene):
+        yield f"grid of the height map: {nx} points along the motion, {steps} apart"
+    else:
+        yield f"grid of the height map: {nx} x {ny} points, {steps} apart"
 
 
 def _lengths_in_words(lengths: float | tuple[float, float]) -> str:
@@ -143,9 +163,13 @@ def lubricated_contact_to_quote(scene: Scene, *, takes_boundary_film: bool = Tru
     if histories is not None and histories.sliding is not None:
         yield _in_time(scene, "sliding", "sliding speed", 0.0)
     else:
-        yield (
-            f"slide-roll ratio {worded(scene.motion.slide_roll_ratio, '-')}{_range(scene, 'motion.slide_roll_ratio')}"
-        )
+        ratio = scene.motion.slide_roll_ratio
+        yield f"slide-roll ratio S = {worded(ratio, '-')}{_range(scene, SLIDE_ROLL_RATIO_KEY)}"
+        speeds = [f"moves at {times:.4g} U" if times else "is at rest" for times in (1 - ratio / 2, 1 + ratio / 2)]
+        yield f"surface 1 {speeds[0]}, surface 2 {speeds[1]}"
+    kinds = [name for _, name in rough_bodies(scene)]
+    first, second = ("rough" if name in kinds else "smooth" for name in ("surface", "counterface"))
+    yield f"definitions U = (u1 + u2)/2 and S = (u2 - u1)/U, u1 the speed of {first} surface 1, u2 of {second} surface 2"
 
 
 def options_to_quote(scene: Scene, *, takes_boundary_film: bool = True) -> Iterator[str]:
@@ -219,8 +243,20 @@ def _range(scene: Scene, key: str) -> str:
     """Return the range to which the value of a ``key`` is known, as text behind it; "" where it is exact."""
     for name, low, high in scene.ranges:
         if name == key:
-            return f" (range {range_in_words(low, high, KEYS[key].unit)})"
+            source = next(iter(sources_of_range(scene, key, (low, high))), "")
+            words = f", source of the value: {source}" if source else ""
+            return f" (range {range_in_words(low, high, KEYS[key].unit)}{words})"
     return ""
+
+
+def sources_of_range(scene: Scene, key: str, ends: Sequence[float]) -> list[str]:
+    """Return where the value of a ``key`` and the ``ends`` of its range were seen in print, as text; [] where they are
+    not a typical value."""
+    return [
+        source_of(key, word)
+        for word, (value, *usual) in typical(key).items()
+        if usual == [*ends] and value == value_of(scene, key)
+    ]
 
 
 def roughness_to_quote(scene: Scene, maps: Sequence[Surface] = (), *, has_given_map: bool = False) -> Iterator[str]:
@@ -277,8 +313,8 @@ def _generated(rough: Roughness, name: str, of_length: str) -> Iterator[str]:
     correlation length, behind it."""
     if rough.correlation_length is not None:
         length = worded(rough.correlation_length, "m")
-        level = "" if rough.decay_level == Roughness.decay_level else f", {rough.decay_level:.4g} at this length"
-        yield f"correlation length{name} {length}{of_length} ({rough.acf} autocorrelation{level})"
+        level = "1/e" if rough.decay_level == Roughness.decay_level else f"{rough.decay_level:.4g}"
+        yield f"correlation length{name} {length}{of_length} ({rough.acf} autocorrelation, {level} at this length)"
     heights = [
         f"{key.capitalize()} {worded(getattr(rough, key), 'm')}" for key in HEIGHTS_OF_HONED if rough.sk is not None
     ]

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from ..models import Model
 from ..models.shared import Prepared
-from ..scene import Scene, source_of, typical, value_of
+from ..scene import Scene
+from .inputs_to_quote import sources_of_range
 
 # The names of the laws of the viscosity over pressure in papers.toml, by their values of the key.
 VISCOSITY_LAWS = {"roelands": "Roelands", "barus": "Barus"}
@@ -76,10 +77,10 @@ def _typical_values(scene: Scene, use: MethodUse) -> dict[str, bool]:
     and of the lubricant where a film does."""
     is_used = {"bodies": use.has_contact, "lubricant": use.has_film}
     texts = [
-        source_of(key, word)
+        text
         for key, *ends in scene.ranges
-        for word, (value, *usual) in typical(key).items()
-        if is_used.get(key.partition(".")[0], False) and usual == ends and value == value_of(scene, key)
+        if is_used.get(key.partition(".")[0], False)
+        for text in sources_of_range(scene, key, ends)
     ]
     return {name: any(author in text for text in texts) for author, name in TYPICAL_VALUES.items()}
 

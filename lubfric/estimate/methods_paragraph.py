@@ -10,14 +10,21 @@ from ..models import title_of, title_to_quote
 from ..models.shared import UNKNOWN_SIDES, Decision, percent
 from ..quantities import COLUMNS
 from ..scene import BOUNDARY_FILM
-from ..units import worded
+from ..units import with_interval, worded
 from .uncertainty import PARTS, Uncertainty
 
 # What chose among the models that may answer.
 WHICH_MODEL = ", the cheapest within the tolerances at each point"
 
-# What the numbers behind the parts of the interval are.
-SIZES_IN_PARAGRAPH = " (in brackets half its width by each alone, relative to f)"
+# What f is, and what the interval is made of.
+DEFINITION_OF_F = (
+    "The friction coefficient f is the force on surface 2 against its sliding over surface 1, over the load."
+)
+COMBINED = (
+    "On each side of f the parts add up by the root of the sum of their squares. The ends of a range are taken as 95 % "
+    "limits of independent inputs. The interval ends where the limits of the shear stress and the sense of the sliding "
+    "allow no other f."
+)
 
 # Authors of a source that are named; of more the first alone. A convention.
 NAMED_AUTHORS = 2
@@ -41,7 +48,7 @@ def methods_paragraph(
     models: Sequence[str] = (),
     points_by_model: Mapping[str, int] | None = None,
 ) -> str:
-    """Return the paragraph: ``what`` was computed, by the program of the ``version``; by which models and on which
+    """Return paragraphs and lists: ``what`` was computed, by the program of the ``version``; by which models and on which
     cells the points are (``decisions``; the ``points_by_model``, where no decisions are kept; the ``models`` that may
     answer, where it is not known which did), their
     ``inputs``, the ``sources`` of the methods (of papers.toml), and what the intervals of f contain and how wide they
@@ -55,20 +62,26 @@ def methods_paragraph(
     names = [title_of(name) for name in models]
     which = f"{_joined(names, 'or')}{WHICH_MODEL if len(names) > 1 else ''}"
     by = f" by its {_joined(shares) or which}" if shares or names else ""
+    sentences = [f"{what} was computed with lubfric {version}{by}.", *_cells(decisions)]
+    sentences += [DEFINITION_OF_F] if names or shares or uncertainties else []
     methods = _purposes([source for source in sources if not source.get("is_origin")])
-    origins = _purposes([source for source in sources if source.get("is_origin")])
-    sentences = [f"{what} was computed with lubfric {version}{by}."]
-    facts = [*inputs, *_cells(decisions)]
-    sentences += [f"The inputs are: {'; '.join(facts)}."] if facts else []
-    sentences += [f"The methods are: {methods}."] if methods else []
+    origins = _joined(_purposes([source for source in sources if source.get("is_origin")]))
     sentences += [f"Credit is due to the {origins}."] if origins else []
     parts = _parts_of_interval(uncertainties)
-    sentences += (
-        [f"The 95 % interval of f contains{SIZES_IN_PARAGRAPH} {_joined(parts)}{_widths(uncertainties)}."]
-        if parts
-        else []
+    interval = ["The 95 % interval of f contains, with half its width by each part alone relative to f:"]
+    interval += [*_lines(parts), " ".join([COMBINED, *_intervals(uncertainties)])]
+    paragraphs = (
+        [" ".join(sentences)],
+        ["Inputs:", *_lines(inputs)] if inputs else [],
+        ["Methods:", *_lines(methods)] if methods else [],
+        interval if parts else [],
     )
-    return " ".join(sentences)
+    return "\n\n".join("\n".join(lines) for lines in paragraphs if lines)
+
+
+def _lines(texts: Iterable[str]) -> list[str]:
+    """Return the ``texts`` as the lines of a list."""
+    return [f"- {text}" for text in texts]
 
 
 def _title(decision: Decision) -> str:
@@ -78,27 +91,44 @@ def _title(decision: Decision) -> str:
     return stands_in or title_to_quote(decision.model)
 
 
-def _purposes(sources: Sequence[dict[str, Any]]) -> str:
+def _purposes(sources: Sequence[dict[str, Any]]) -> list[str]:
     """Return what ``sources`` are used for, each purpose once with its sources, as text."""
     by_purpose: dict[str, list[str]] = {}
     for source in sources:
         by_purpose.setdefault(source["purpose"], []).append(_reference(source))
-    return "; ".join(f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items())
+    return [f"{purpose} ({'; '.join(references)})" for purpose, references in by_purpose.items()]
 
 
 def _cells(decisions: Sequence[Decision]) -> list[str]:
-    """Return on how many strips and cells the points were solved; nothing where none has cells."""
+    """Return on how many strips and cells the points were solved, a sentence each; nothing where none has cells."""
     joined = [(each.strips, each.shape, each.cell_size) for each in decisions if each.shape is not None]
     single = [
         (each.strips, each.cells_of_strip, each.cell_size) for each in decisions if each.cells_of_strip is not None
     ]
-    return [
-        f"{_span([strips for strips, *_ in solved])} strip{'s' if max(solved)[0] > 1 else ''} of "
+    sentences = [
+        f"{where} solved on {_span([strips for strips, *_ in solved])} strip{'s' if max(solved)[0] > 1 else ''} of "
         f"{_span([nx for _, (nx, _), _ in solved])} x {_span([ny for _, (_, ny), _ in solved])} cells {how}"
-        f"{_cell_sizes([size for *_, size in solved if size is not None])}"
-        for solved, how in ((joined, "in all (dry contact)"), (single, "each (film and contact)"))
+        f"{_cell_sizes([size for *_, size in solved if size is not None])}."
+        for solved, where, how in (
+            (joined, "The dry contact was", "in all"),
+            (single, "Film and contact together were", "each"),
+        )
         if solved
     ]
+    controls = [each.control_strips for each in decisions if each.control_strips]
+    if controls:
+        number = f"{_span(controls)} strip{'s' if max(controls) > 1 else ''}"
+        where = "f" if len(controls) == len(decisions) else f"At {len(controls)} of {len(decisions)} points f"
+        sentences.append(
+            f"{where} is that of the load-sharing model on {number}, corrected by the mean difference of the models."
+        )
+    shorter = sorted({times for each in decisions for times in each.shorter_cells})
+    if shorter:
+        sentences.append(
+            f"It was corrected by the change of f on cells {_joined(map(str, shorter))} times as short, on pieces of the "
+            "strips."
+        )
+    return sentences
 
 
 def _cell_sizes(sizes: Sequence[tuple[float, float]]) -> str:
@@ -118,13 +148,15 @@ def _span(numbers: Sequence[int]) -> str:
     return " to ".join(map(str, dict.fromkeys((min(numbers), max(numbers)))))
 
 
-def _widths(uncertainties: Sequence[Uncertainty]) -> str:
-    """Return the range of half the widths of the intervals, relative to f, as text; "" where none is known."""
-    halves = [
-        (each.interval[1] - each.interval[0]) / abs(2 * each.coefficient)
-        for each in _with_relative_errors(uncertainties)
-    ]
-    return f"; half its width is {_percents(halves)} of f" if halves else ""
+def _intervals(uncertainties: Sequence[Uncertainty]) -> list[str]:
+    """Return f and its interval, of one point, and the range of half the widths of the intervals relative to f, a
+    sentence each; [] where none is known."""
+    known = _with_relative_errors(uncertainties)
+    if not known:
+        return []
+    halves = [(each.interval[1] - each.interval[0]) / abs(2 * each.coefficient) for each in known]
+    of_point = [f"f is {with_interval(known[0].coefficient, *known[0].interval)}."] if len(uncertainties) == 1 else []
+    return [*of_point, f"Half the width of the interval is {_percents(halves)} of f."]
 
 
 def _with_relative_errors(uncertainties: Sequence[Uncertainty]) -> list[Uncertainty]:

@@ -17,7 +17,7 @@ from .._base import FrozenArrays, Shown, figures, limited_work, table_bytes, val
 from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
-from ..estimate import cited, dry_contact_to_quote, lubricated_contact_to_quote, roughness_to_quote
+from ..estimate import cited, dry_contact_to_quote, grid_to_quote, lubricated_contact_to_quote, roughness_to_quote
 from ..models import AUTO, MODELS, model_named
 from ..models.load_sharing import flattening
 from ..quantities import counted
@@ -280,6 +280,7 @@ def _run_in(scene: Scene, surface: Surface | None, options: _Options) -> RunIn:
         wear=wear,
         inputs=(
             *roughness_to_quote(scene, has_given_map=surface is not None),
+            *grid_to_quote(scene, [before]),
             *dry_contact_to_quote(replace(scene, transient=None)),
             *_passes_in_words(before, centres, len(done.deepest), tolerance),
             *(() if wear is None else _wear_in_words(replace(scene, transient=None), wear, wear_of)),

@@ -50,14 +50,18 @@ def test_a_paragraph_to_quote_has_what_was_used():
     (low, high) = sorted(
         50 * (each.interval[1] - each.interval[0]) / each.coefficient for each in (p.uncertainty for p in curve.points)
     )
-    assert text.endswith(f"; half its width is {low:.2g} to {high:.2g} % of f.")
+    assert text.endswith(f" Half the width of the interval is {low:.2g} to {high:.2g} % of f.")
     (low, high) = sorted(100 * each.budget["numerical"] for each in (p.uncertainty for p in curve.points))
     (_, largest) = sorted(100 * each.budget["sampling"] for each in (p.uncertainty for p in curve.points))
     assert f"the numerical error ({low:.2g} to {high:.2g} %)" in text
     assert f"the sampling error (< 0.001 to {largest:.2g} %)" in text
-    known = r"the model-form error \(.* %\) and the assumed range of the boundary film, half to twice 20 nm \([\d.]+"
+    known = r"- the model-form error \(.* %\)\n- the assumed range of the boundary film, half to twice 20 nm \([\d.]+"
     assert re.search(known, text) and "a method of lubfric" in text and "Hu and Zhu 2000" in text
-    methods = text.partition("The methods are: ")[2].partition(". Credit is due to the origin of ")
+    (head, _, listed_methods, interval) = text.split("\n\n")
+    assert interval.startswith("The 95 % interval of f contains")
+    assert "root of the sum of their squares" in interval and "95 % limits of independent inputs" in interval
+    assert max(len(sentence.split()) for sentence in head.split(". ")) < 60 and head.count(";") == 0
+    methods = (listed_methods, "", head.partition("Credit is due to the origin of ")[2])
     assert "Hu and Zhu 2000" in methods[2] and "Hu and Zhu" not in methods[0]
     assert "1 strip of " in text and "Giles 2008" in text and "2 entrainment speeds" in text
     point = curve.points[1]
@@ -78,13 +82,18 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         lubricant={"eyring_stress": 5e6, "density_law": "dowson-higginson"}, bodies={"boundary_film": 15e-9}
     )
     point = lubfric.friction(scene, 0.03, raise_on_failure=False, fields=True)
-    (stated,) = re.findall(r"The inputs are: (.*?)\. The methods", point.cite("methods"))
+    (head, inputs, *_) = point.cite("methods").split("\n\n")
+    stated = head + inputs.replace("\n- ", "; ")
+    assert "f is the force on surface 2 against its sliding over surface 1, over the load" in head
+    (nx, ny) = point.decision.shape
     by_length = 1e6 * (point.fields.x[1] - point.fields.x[0])
     by_width = 1e6 * (point.fields.y[1] - point.fields.y[0])
-    assert f"cells in all (dry contact), {by_length:.4g} µm long along the motion and {by_width:.4g} µm" in stated
+    assert (
+        f"The dry contact was solved on 1 strip of {nx} x {ny} cells in all, {by_length:.4g} µm long along the motion and {by_width:.4g} µm"
+        in stated
+    )
     b = scene.bodies
     peak = (b.load * b.e_prime / (2 * math.pi * b.width * b.radius)) ** 0.5
-    nx, ny = point.decision.shape
     for words in (
         "viscosity over pressure of Roelands; density over pressure of Dowson and Higginson",
         "film of the load-sharing model deformed by its own pressure alone",
@@ -98,10 +107,14 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
         "pressure-viscosity coefficient 20 1/GPa;",
         "Eyring stress 5 MPa",
         f"boundary friction coefficient {b.boundary_friction_coefficient:.4g}",
-        f"slide-roll ratio {scene.motion.slide_roll_ratio:.4g}; entrainment speed 0.03 m/s",
+        f"slide-roll ratio S = {scene.motion.slide_roll_ratio:.4g}; ",
         "one patch of the surface in place of strips",
         "boundary film 15 nm",
-        f"1 strip of {nx} x {ny} cells in all",
+        f"{nx} x {ny} points, ",
+        "surface 1 is at rest, surface 2 moves at 2 U",
+        "U = (u1 + u2)/2 and S = (u2 - u1)/U, u1 the speed of rough surface 1, u2 of smooth surface 2",
+        "height map periodic along the line",
+        "autocorrelation, 1/e at this length)",
     ):
         assert words in stated, words
     paper = lubfric.friction(scene.with_(numerics={"model": "paper"}), 0.03)
@@ -109,10 +122,10 @@ def test_the_paragraph_states_the_inputs_that_all_points_share():
     is_same = paper.coefficient == thin.coefficient
     assert is_same and "boundary film 15 nm, which limits the interval of f alone" in paper.cite("methods")
     estimated = lubfric.friction(PATCH.with_(lubricant=OIL), 0.03, raise_on_failure=False).cite("methods")
-    assert "is not in the interval" in estimated and "boundary film " not in estimated.partition("The methods")[0]
+    assert "is not in the interval" in estimated and "boundary film " not in estimated.partition("Methods:")[0]
     study = lubfric.study(PATCH, {"bodies.load": [2.0, 3.0]}, [0.03]).cite("methods")
     assert "boundary friction coefficient" in study and "load 2 N" not in study and "load 2 to 3 N" in study
-    assert "by its load-sharing model." in study and "; 2 points." in study
+    assert "by its load-sharing model." in study and "\n- 2 points\n" in study
     one = lubfric.study(KNOWN.with_(numerics={"sampling": "strips", "sampling_tolerance": 0.3}), {}, [0.03])
     sides = [one[f"model_error_{end}"].item() for end in ("low", "high")]
     assert f"the model-form error ({50 * sum(sides):.2g} %)" in one.cite("methods") and sides[0] != sides[1]
@@ -164,9 +177,13 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     strips = {*inputs_to_quote(PATCH.with_(numerics={"sampling": "strips"}))}
     of_patch = [
         "one patch of the surface in place of strips",
-        "grid of the height map: 64 x 48 points, distance of the points 1.4 µm",
     ]
-    assert sorted({*inputs_to_quote(PATCH)} - strips) == sorted(of_patch)
+    assert sorted({*inputs_to_quote(PATCH)} - strips) == of_patch
+    # a generated map may be on another grid than contact.spacing: the one that was solved is stated
+    whole_map = lubfric.Surface(numpy.zeros((64, 48)), 2e-6)
+    assert "grid of the height map: 64 x 48 points, 2 µm apart" in inputs_to_quote(PATCH, [whole_map])
+    of_strips = inputs_to_quote(PATCH.with_(numerics={"sampling": "strips"}), [whole_map])
+    assert "grid of the height map: 64 points along the motion, 2 µm apart" in of_strips
     inputs = inputs_to_quote(replace(PATCH, transient=history))
     assert "run in time over 10 ms" in inputs
     starved = inputs_to_quote(KNOWN.with_(lubricant={"inlet_length": 3e-4}, bodies={"hardness": 2.5e9}))
@@ -238,7 +255,7 @@ def test_a_run_in_time_cites_the_model_that_was_solved():
     assert by_model[0].coefficient.tobytes() == by_model[1].coefficient.tobytes()
     assert by_model[0].cite() == by_model[1].cite()
     paragraph = by_model[1].cite("methods")
-    assert "by its load-sharing model." in paragraph and f"; {by_model[1].time.size} outputs." in paragraph
+    assert "by its load-sharing model." in paragraph and f"\n- {by_model[1].time.size} outputs\n" in paragraph
     assert "interval" not in paragraph  # a patch: without the error of the sample
 
 
@@ -246,7 +263,7 @@ def test_a_run_in_time_quotes_the_width_of_the_interval_of_its_mean():
     short = {"shape": (64, 16), "spacing": 1.4e-6}
     run = lubfric.transient(paper_scene(contact=short, transient=lubfric.Transient(1e-5, outputs=1)))
     mean = run.average()
-    (quoted,) = re.findall(r"half its width is ([0-9.]+) % of f", run.cite("methods"))
+    (quoted,) = re.findall(r"Half the width of the interval is ([0-9.]+) % of f", run.cite("methods"))
     assert float(quoted) == pytest.approx(100 * (mean.interval[1] - mean.interval[0]) / 2 / mean.coefficient, rel=0.02)
 
 

@@ -330,6 +330,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
         strips=len(results),
         cells_of_strip=results[0].pressure.shape,
         cell_size=results[0].spacing,
+        control_strips=levels.control_strips,
+        shorter_cells=_shorter_cells(levels),
         heat_in_words=known,
         notes=notes,
     )
@@ -464,16 +466,23 @@ def _words_of_levels(levels: Levels) -> str:
     if levels.control_strips:
         strips += f" of a line of {counted(levels.control_strips, 'strips')}"
     if pieces:
-        of_strips = pieces[0].on_cells_of_strips.result.spacing
-        times = round(max(long / short for long, short in zip(of_strips, pieces[0].on_shortest_cells.result.spacing)))
+        (times, *more) = _shorter_cells(levels)
         strips += f", with the effect of cells {times} times as short on {counted(len(pieces), 'pieces')}"
-        if levels.shortest:
-            of_last = levels.shortest.on_shortest_cells.result.spacing
-            times = round(max(long / short for long, short in zip(of_strips, of_last)))
-            strips += f" and of cells {times} times as short on one of them, or a part of it"
+        if more:
+            strips += f" and of cells {more[0]} times as short on one of them, or a part of it"
     if not levels.control_strips:
         return f"solved together with the contact on {strips}"
     return f"solved together with the contact: the difference from Eq. (8) on {strips}"
+
+
+def _shorter_cells(levels: Levels) -> tuple[int, ...]:
+    """Return how many times as short as those of the strips the cells of each further level are; () without one."""
+    if not levels.pieces:
+        return ()
+    of_strips = levels.pieces[0].on_cells_of_strips.result.spacing
+    last = [levels.pieces[0], *([levels.shortest] if levels.shortest else [])]
+    spacings = [piece.on_shortest_cells.result.spacing for piece in last]
+    return tuple(round(max(long / short for long, short in zip(of_strips, spacing))) for spacing in spacings)
 
 
 def _division(scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]) -> str:

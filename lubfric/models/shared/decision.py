@@ -21,6 +21,9 @@ class Decision(Renamed):
     strips : number of strips of the surface that were solved
     cells_of_strip : cells (nx, ny) of a strip whose film was solved with its contact; None: none was
     cell_size : length (dx, dy) [m] of the cells of ``shape`` or ``cells_of_strip``, along the motion and along the line
+    control_strips : strips on which the load-sharing model was solved, where f is its f and the difference of the models on
+        ``strips``; 0: f is that of ``strips``
+    shorter_cells : how many times as short the cells of pieces of the strips are, by whose change f is corrected
     change_by_cells : relative change of f by native cells, for which it is corrected
     heat_in_words : which heat was modelled; "": none can be
     notes : what else a reader should know
@@ -39,6 +42,8 @@ class Decision(Renamed):
     strips: int = 1
     cells_of_strip: tuple[int, int] | None = None
     cell_size: tuple[float, float] | None = None
+    control_strips: int = 0
+    shorter_cells: tuple[int, ...] = ()
     change_by_cells: float = 0.0
     heat_in_words: str = ""
     notes: tuple[str, ...] = ()
