@@ -12,6 +12,7 @@ from .. import studies
 from .._base import figures
 from ..models.shared import percent
 from ..quantities import worded_value
+from .change_panels import chains_of, draw_chains, handles_of_chains, show_ends
 from .picture_options import THINNER, PictureOptions
 
 if TYPE_CHECKING:
@@ -35,6 +36,9 @@ APART = 0.03
 
 # Speeds of a common axis for curves that chose their own. A choice, by looking at the figures.
 COMMON_SPEEDS = 40
+
+# Points of a study up to which panels show those that differ in one input alone. A choice: of more, others say more.
+MOST_CHAINED = 12
 
 # Panels, at most: of the inputs with the largest parts of the variance. A choice, by looking at the figures.
 MOST_EFFECTS = 8
@@ -103,8 +107,12 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
     of_speeds = [Group(name="", rows=np.arange(columns[studies.SPEED].size))]
     if not result.paired and speeds.size > 1:
         of_speeds = _groups(columns[studies.SPEED])
+    chains = chains_of(result) if not (over_speed or shares or result.status.size > MOST_CHAINED) else {}
+    ends = []
     for number, (axes, key) in enumerate(zip(panels, inputs)):
-        if over_speed:
+        if key in chains:
+            ends.append(draw_chains(axes, result, key, chains[key]))
+        elif over_speed:
             (shown, label) = _shown(key, columns[key])
             _draw_over_speed(axes, columns, _groups(shown))
             heads = [fill(text, room) for text in (label, _share_in_words(key, shares)) if text]
@@ -118,7 +126,10 @@ def draw_effects(result: studies.StudyResult, keys: list[str], options: PictureO
         axes.set_ylabel("" if number % across else figures.FRICTION_LABEL)
     for axes in panels[len(inputs) :]:
         axes.set_visible(False)
-    _key_below(figure, columns, of_speeds if not over_speed else [], options)
+    if ends and len(ends) == len(inputs):
+        show_ends(panels[0], ends)
+    handles = handles_of_chains(result, panels[0]) if ends else []
+    _key_below(figure, columns, of_speeds if not over_speed else [], options, handles)
     return figure
 
 
@@ -249,12 +260,14 @@ def _spread(x: np.ndarray, f: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return distinct, numbers
 
 
-def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Group], options: PictureOptions) -> None:
-    """Write what the colours and marks of the panels mean below them."""
+def _key_below(
+    figure: Figure, columns: dict[str, np.ndarray], groups: list[Group], options: PictureOptions, others: list[Any]
+) -> None:
+    """Write what the colours and marks of the panels mean below them, with ``others`` as further entries."""
     from matplotlib.lines import Line2D
 
     grey: dict[str, Any] = {"color": figures.GREY}
-    handles = []
+    handles = list(others)
     named = [group for group in groups if group.name]
     for group, colour in zip(named, _colours(len(named))):
         name = f"{studies.name_of(studies.SPEED)} {group.name} m/s"
@@ -276,6 +289,7 @@ def _key_below(figure: Figure, columns: dict[str, np.ndarray], groups: list[Grou
     size = figures.SMALL_KEY_SIZE if options.is_narrow else figures.KEY_SIZE
     across = max(1, min(len(handles), letters // longest))
     are_apart = len(named) > 1 and any(line.get_markersize() == MEAN_SIZE for line in lines)
+    are_apart |= bool(others) and any(len(axes.lines) > 1 for axes in figure.axes)
     titles = [*filter(None, (median_interval_in_words(columns), SIDE_BY_SIDE if are_apart else ""))]
     legend = figure.legend(
         handles=handles,

@@ -10,6 +10,7 @@ import numpy as np
 from .. import studies
 from .._base import figures
 from ..quantities import COLUMNS, counted
+from .change_panels import hides_differences
 from .effect_pictures import FEW_SPEEDS, draw_effects, median_interval_in_words
 from .picture_options import PictureOptions
 
@@ -64,6 +65,8 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
         studies.plot_points(result, "coefficient", upper).set_xlabel("")
         studies.plot_points(result, "power_loss", lower)
         figure.align_ylabels()
+    elif over and over != studies.SPEED and len(varied) == 1 and hides_differences(result, over):
+        figure = draw_effects(result, varied, options)
     elif over:
         figure = figures.new_figure(figsize=options.size([STUDY_HEIGHT]))
         axes = figure.subplots()

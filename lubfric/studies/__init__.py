@@ -38,6 +38,7 @@ from .tables import (
     name_of,
     pairs_around_reversals,
     place_in_words,
+    places_without_sliding,
     plot_map,
     plot_points,
     shown_numbers,

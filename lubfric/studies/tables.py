@@ -55,6 +55,9 @@ SYMBOL_AT_END = {"root mean square height Sq": "Sq"}
 # Quantities of operating points that jump, or have a minimum, where the direction of sliding changes.
 OF_SLIDING = "coefficient", "power_loss"
 
+# Name of the line where the sliding speed is 0.
+NO_SLIDING = "no sliding"
+
 # Points of a line between solved ones. A choice, by looking at the figures.
 LINE_POINTS = 200
 
@@ -153,15 +156,11 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     unit = unit_of_largest(result[quantity].ravel().tolist(), COLUMNS[quantity].unit)
     times = converted(1.0, COLUMNS[quantity].unit, unit)
     indices = list(np.ndindex(*result.status.shape[:-1]))[:MOST_OF_POINTS]
-    gaps: dict[str, Any] = {"color": figures.GREY, "alpha": 0.12, "lw": 0, "label": "the sliding changes its direction"}
     for index in indices:
         values = times * result[quantity][index][order]
-        breaks = _directions_of_sliding(result, index)[order] if quantity in OF_SLIDING else np.zeros(0)
-        turns = np.flatnonzero(np.diff(breaks)) + 1  # before these points the direction changes
+        sliding = _sliding_speeds(result, index)[order] if quantity in OF_SLIDING else np.zeros(0)
+        turns = np.flatnonzero(np.diff(np.sign(sliding))) + 1  # before these points the direction changes
         ends = turns if coordinate else np.arange(1, count)  # before these a line ends
-        for end in turns if coordinate and index == indices[0] else ():
-            axes.axvspan(over[order][end - 1], over[order][end], **gaps)
-            gaps.pop("label", None)
         named = figures.plain_words(label(result.plan, (*index, slice(None)))) if len(indices) > 1 else None
         line_style: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
         line_style |= {"color": figures.BLUE} if len(indices) == 1 else {}
@@ -173,6 +172,10 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
             axes.fill_between(along, sides[0], sides[1], color=line.get_color(), alpha=0.2, lw=0, **known)
             for alone in _lone(ends, order.size):  # no line or band shows the interval of such a point
                 axes.vlines(over[order][alone], low[alone], high[alone], color=line.get_color(), alpha=0.4, lw=3)
+    if coordinate and quantity in OF_SLIDING:
+        first = _sliding_speeds(result, indices[0])[order]
+        for number, place in enumerate(places_without_sliding(over[order], first)):
+            axes.axvline(place, color=figures.GREY, lw=1.0, ls=":", label=None if number else NO_SLIDING)
     axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
     if coordinate is None:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -180,16 +183,32 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     return axes
 
 
-def _directions_of_sliding(result: Any, index: tuple[int, ...]) -> np.ndarray:
-    """Return the direction of sliding, of u2 - u1 (-1, 0, 1), of the operating points at the position ``index`` along
-    the other axes."""
-    senses = np.sign(result.plan.point_speeds)
+def _sliding_speeds(result: Any, index: tuple[int, ...]) -> np.ndarray:
+    """Return u2 - u1 [m/s] of the operating points at the position ``index`` along the other axes; 0 where no ratio is
+    varied."""
+    speeds = np.array(result.plan.point_speeds)
     if SLIDE_ROLL_RATIO_KEY in result.coords:
         dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
         if dim == result.dims[-1]:
-            return senses * np.sign(ratios)
-        return senses * np.sign(ratios[index[result.dims.index(dim)]])
-    return np.zeros(result.status.shape[-1])
+            return speeds * ratios
+        return speeds * ratios[index[result.dims.index(dim)]]
+    return 0.0 * speeds
+
+
+def places_without_sliding(over: np.ndarray, sliding: np.ndarray) -> list[float]:
+    """Return where a ``sliding`` speed (n,) ``over`` places in ascending order is 0: between two points of opposite
+    directions by linear interpolation, and at points where it is 0, of several one after the other the first and the
+    last. None where nothing slides anywhere."""
+    places = [
+        float(over[i] - sliding[i] * (over[i + 1] - over[i]) / (sliding[i + 1] - sliding[i]))
+        for i in np.flatnonzero(sliding[:-1] * sliding[1:] < 0)
+    ]
+    still = sliding == 0
+    if still.all():
+        return []
+    sides = np.pad(still, 1)
+    ends = np.flatnonzero(still & ~(sides[:-2] & sides[2:]))
+    return sorted([*places, *over[ends].tolist()])
 
 
 def pairs_around_reversals(result: Any, index: tuple[int, ...]) -> list[tuple[int, int]]:
@@ -199,8 +218,8 @@ def pairs_around_reversals(result: Any, index: tuple[int, ...]) -> list[tuple[in
     if coordinate is None:
         return []
     order = np.argsort(result.coords[coordinate][1], kind="stable")
-    senses = _directions_of_sliding(result, index)[order]
-    return [(int(order[i]), int(order[i + 1])) for i in np.flatnonzero(senses[:-1] * senses[1:] < 0)]
+    sliding = _sliding_speeds(result, index)[order]
+    return [(int(order[i]), int(order[i + 1])) for i in np.flatnonzero(sliding[:-1] * sliding[1:] < 0)]
 
 
 def _lone(ends: np.ndarray, count: int) -> list[int]:

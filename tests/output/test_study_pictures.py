@@ -135,6 +135,8 @@ def made_study_over(vary, speeds):
     f = np.linspace(0.03, 0.12, int(np.prod(plan.shape))).reshape(plan.shape)
     columns = {"coefficient": f, "interval_low": 0.8 * f, "interval_high": 1.3 * f}
     columns |= {"power_loss": 10 * f, "power_loss_low": 8 * f, "power_loss_high": 13 * f}
+    errors = ("numerical", "sampling", "model", "input", "not_given")
+    columns |= {f"{name}_error": 0.0 * f for name in errors} | {"sampling_freedom": 0.0 * f + 4.0}
     return made_study(plan, columns)
 
 

@@ -8,7 +8,7 @@ import pytest
 from small_study import SCENE, made_study
 
 import lubfric
-from lubfric.output import study_answer, study_tables
+from lubfric.output import study_answer, study_pictures, study_tables
 from lubfric.studies import differences, single_changes
 
 OIL = SCENE.with_(
@@ -152,6 +152,36 @@ def test_the_table_of_points_has_the_digits_of_their_own_errors_and_the_viscosit
     assert "[mPa s]" in page and all(f">{1e3 * value:.3g}<" in page for value in viscosities)
     loads = lubfric.plan_study(OIL, {"bodies.load": [10.0, 20.0]}, [0.3])
     assert "[mPa s]" not in study_tables.table_of_points(made(loads, [0.12, 0.11]), 2, [])
+
+
+def figure_of(result, tmp_path, monkeypatch):
+    """The figure that is drawn of a study."""
+    figures = []
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda figure, *_, **__: figures.append(figure))
+    study_pictures.plot_study(tmp_path / "study.png", result)
+    return figures[0]
+
+
+def test_a_panel_has_the_points_that_differ_in_its_input_alone(tmp_path, monkeypatch):
+    """Of three points two in each panel; the axis shows the part of the intervals that counts in differences, the square
+    root of half the square of the error of the difference."""
+    result = graded()
+    (grade, temperature) = figure_of(result, tmp_path, monkeypatch).axes
+    for axes, rows in ((grade, [0, 2]), (temperature, [0, 1])):
+        (line,) = axes.lines
+        np.testing.assert_allclose(line.get_ydata(), F[rows])
+    (change,) = differences(result, "coefficient", [(0, 2)])
+    half = (change.interval[1] - change.value) / math.sqrt(2)
+    bars = grade.collections[1].get_segments()
+    np.testing.assert_allclose([np.ptp(bar[:, 1]) for bar in bars], 2 * half)
+    assert grade.get_ylim()[0] > 0.115 and grade.get_ylim()[1] < 0.125
+
+
+@pytest.mark.parametrize("own, begins_at_0", [(0.006, False), (0.25, True)])
+def test_differences_of_one_input_are_drawn_where_a_common_error_hides_them(own, begins_at_0, tmp_path, monkeypatch):
+    plan = lubfric.plan_study(OIL, {"lubricant.temperature_celsius": [60, 80, 100]}, [0.3])
+    (axes, *_) = figure_of(made(plan, [0.121, 0.118, 0.115], own=own), tmp_path, monkeypatch).axes
+    assert (axes.get_ylim()[0] == 0) == begins_at_0
 
 
 def test_several_numbers_of_an_input_have_their_unit():

@@ -17,7 +17,7 @@ from lubfric.output.study_inputs import common_inputs, range_in_a_line
 from lubfric.output.study_report import study_page
 from lubfric.output.study_tables import why_no_rises
 from lubfric.output.study_warnings import counts_of_warnings
-from lubfric.studies import load_study, plot_points
+from lubfric.studies import load_study, places_without_sliding, plot_points
 from lubfric.units import with_interval
 
 ROWS = [  # radius m, load N, u1, u2 m/s, duration s
@@ -250,12 +250,12 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4
     ends = [float(sum(p.power_loss_interval[i] * row[-1] for p, row in zip(points, ROWS)) / 4) for i in (0, 1)]
     mean_text = with_interval(mean, *ends, unit="W")
-    assert f"The mean power loss of the operating points, weighted by the duration, is {mean_text}" in said
+    assert f"The mean power loss of the operating points, each point weighted by its duration, is {mean_text}" in said
     (loss,) = (line for line in said.splitlines() if line.startswith("The mean power loss"))
     assert "one tooth pair" in loss and "contact ratio if each row has the load on one pair." in loss  # over positions
     largest = max(points, key=lambda point: point.power_loss)
     largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
-    assert f"The largest power loss is {largest_text}" in said
+    assert f"The largest power loss of the computed points is {largest_text}" in said
     page = (out / "report.html").read_text()
     assert "power loss [mW]" in page and mean_text in page and "Converged: all 3 points are solved." in page
     assert page.count("the temperature rises are not computed: the lubricant does not state how") == 1
@@ -375,6 +375,22 @@ def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
         np.testing.assert_array_equal(np.isnan(drawn), [False, True, False, True, False])
     load = plot_points(result, "film_load").lines[0].get_ydata()
     assert np.isfinite(load).all() and load.size == 3
+
+
+@pytest.mark.parametrize(
+    "sliding, places",
+    [
+        ([0.3, 0.1, -0.3], [1.5]),
+        ([0.3, 0.0, -0.3], [1.0]),
+        ([0.0, 0.0, 0.0], []),
+        ([0.1, 0.2, 0.3], []),
+        ([0.0, 0.0, -0.3], [0.0, 1.0]),
+    ],
+)
+def test_a_line_is_drawn_where_nothing_slides(sliding, places):
+    """Over 0, 1 and 3: where a straight line between two points is 0, or at a point."""
+    where = places_without_sliding(np.array([0.0, 1.0, 3.0]), np.array(sliding))
+    np.testing.assert_allclose(where, places)
 
 
 def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
