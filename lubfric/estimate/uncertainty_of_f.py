@@ -25,6 +25,11 @@ PARTS_AT_LIMIT = ", {} by sliding and {} by rolling"
 CUT_AT_ZERO = "{} begins at the smallest f that resists the sliding"
 LEAST_F = ", {:.3g}"
 
+ABOVE_BOUNDARY_FRICTION = (
+    "the interval reaches above the boundary friction, {:.3g}: no limiting stress of the oil is given, so that a film may "
+    "have more friction than asperities; give lubricant.limiting_stress_coefficient to exclude it"
+)
+
 # What narrows the sampling error, by whether the sample has more strips.
 SMALLER_SAMPLING_TOLERANCE = "set a smaller numerics.sampling_tolerance to reduce it"
 LARGER_MAP = "give a larger map to reduce it"
@@ -67,6 +72,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     if scene.ranges:
         uncertainty = with_input_ranges(uncertainty, changes_by_ranges(prepared, answer))
     limited = _resisting_sliding(scene, answer, within_stress_limits(scene, answer, uncertainty))
+    limited = replace(limited, notes=(*limited.notes, *_above_boundary_friction(scene, answer, limited)))
     if has_sampling_error:
         return limited
     return replace(limited, interval=(math.nan, math.nan), interval_without_sampling=limited.interval)
@@ -96,6 +102,17 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     parts = f"{sliding:.3g}", f"{by_rolling:.2g}"
     cut = CUT_AT_LIMIT.format(name) + PARTS_AT_LIMIT.format(*parts)
     return replace(uncertainty, interval=ends, cut=(*uncertainty.cut, cut))
+
+
+def _above_boundary_friction(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> tuple[str, ...]:
+    """Return why the interval of f reaches above f_b and the rolling part of f, as text; () if it does not."""
+    f_b = largest_boundary_friction(scene)
+    rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
+    high = uncertainty.interval[1]
+    has_limit = scene.lubricant.limiting_stress_coefficient is not None
+    if has_limit or not (_always_slides(scene) and high > f_b + rolling):
+        return ()
+    return (ABOVE_BOUNDARY_FRICTION.format(f_b),)
 
 
 def _largest_change(scene: Scene, answer: ModelAnswer) -> float:

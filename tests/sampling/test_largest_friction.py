@@ -86,6 +86,18 @@ def test_no_interval_reaches_beyond_f_b_where_asperities_carry_nearly_all(model)
     assert ("limits of the shear stress" in result.uncertainty.text) == reaches
 
 
+@pytest.mark.parametrize(("limit", "numerical"), [(None, 5.0), (None, 0.01), (0.5, 5.0)])
+def test_an_interval_above_f_b_says_that_the_oil_has_no_limit(limit, numerical):
+    """A numerical error of f makes it reach there or not; with a limit of .5 it reaches there as well."""
+    scene = PAPER.with_(lubricant={"eyring_stress": 5e7, "limiting_stress_coefficient": limit})
+    prepared = lubfric.prepare(scene)
+    solved = PaperModel().solve(prepared, prepared.sample, 1, 0.1).answer()
+    known = uncertainty_of(prepared, replace(solved, errors=replace(solved.errors, numerical=numerical)))
+    is_above = known.interval[1] > scene.bodies.boundary_friction_coefficient
+    assert is_above == (numerical == 5.0)
+    assert ("above the boundary friction" in known.text) == (is_above and limit is None)
+
+
 @pytest.mark.parametrize(("numerical", "is_cut"), [(0.01, False), (50.0, True)])
 def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     """At the stress that the oil and f_b allow, and at the f whose sliding part is 0."""
