@@ -14,7 +14,7 @@ from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from .errors import InputError
-from .units import converted, printed, unit_of_largest, worded
+from .units import converted, plain_number, printed, unit_of_largest, worded
 
 T = TypeVar("T")  # float, or an array over operating points
 
@@ -416,6 +416,8 @@ COLUMNS = (
     | {"sampling_tolerance": Quantity("-", "requested relative standard error of f")}
 )
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
+# Digits of where an operating point lies, at most. A choice: tables of users have as many.
+GIVEN_DIGITS = 6
 # Ends of the keys of two lengths, along x and y.
 LENGTHS_ALONG_AXES = ("correlation_length", "spacing")
 
@@ -429,6 +431,8 @@ def worded_value(name: str, value: Any) -> str:
         largest = unit_of_largest(numbers, unit)
         between = " x " if name.endswith(LENGTHS_ALONG_AXES) else ", "
         return f"{between.join(f'{converted(v, unit, largest):.4g}' for v in numbers)} {printed(largest)}".rstrip()
+    if name in OF_CYCLE:
+        return plain_number(value, unit, GIVEN_DIGITS)
     if name == "lubricant.temperature" and not isinstance(value, str):
         return f"{converted(value, 'K', '°C'):.4g} °C"
     return worded(value, unit)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ..models.shared import alpha_of_points_in_words, is_by_sliding, numbers_in_words, percent, sentence
-from ..quantities import COLUMNS
+from ..quantities import COLUMNS, GIVEN_DIGITS
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from ..studies import (
     DURATION,
@@ -34,7 +34,6 @@ from .rolling_part import rolling_part
 from .single_changes import listed_changes, single_change_lines
 from .status import omitted_heat_in_words, status_of_study
 from .study_points import effects_at, error_in_words, parts_of_error, scene_of_each
-from .study_tables import GIVEN_DIGITS
 
 # Points of a study at which the effects that are not modelled are computed for its answer, at most. A choice: some ms
 # each.
@@ -210,12 +209,14 @@ def _main_effects_lines(result: StudyResult) -> list[str]:
     if any(lines):
         return [line for line in lines if line]
     changes = listed_changes(result)
-    if changes:
-        return single_change_lines(result, changes)
     why = why_not_separated(result)
-    if why and design_keys(result.plan):
-        return [f"What each input does by itself is not known, because {why}. {DRAW_INDEPENDENTLY}"]
-    return []
+    known = {key for change in changes for key in change.before}
+    unknown = [key for key in design_keys(result.plan) if key not in known]
+    if not why or not unknown:
+        return single_change_lines(result, changes)
+    what = ", ".join(map(name_of, unknown)) if changes else "each input"
+    lines = [f"What {what} does by itself is not known, because {why}. {DRAW_INDEPENDENTLY}"]
+    return [*single_change_lines(result, changes), *lines]
 
 
 def _effects_in_words(result: StudyResult, effects: dict[str, MainEffect], symbol: str) -> str:

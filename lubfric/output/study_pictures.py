@@ -65,7 +65,7 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
         studies.plot_points(result, "coefficient", upper).set_xlabel("")
         studies.plot_points(result, "power_loss", lower)
         figure.align_ylabels()
-    elif over and over != studies.SPEED and len(varied) == 1 and hides_differences(result, over):
+    elif over not in ("", studies.SPEED) and _is_of_one_input(result, varied) and hides_differences(result, over):
         figure = draw_effects(result, varied, options)
     elif over:
         figure = figures.new_figure(figsize=options.size([STUDY_HEIGHT]))
@@ -89,6 +89,11 @@ def plot_study(path: Path, result: studies.StudyResult, options: PictureOptions 
         figures.lay_out(figure)
     figures.heighten(figure, LEAST_PANEL)
     figure.savefig(path)
+
+
+def _is_of_one_input(result: studies.StudyResult, varied: list[str]) -> bool:
+    """Return whether a study of few points varies one key alone."""
+    return len(varied) == 1 and result.status.size <= MANY_POINTS
 
 
 def _title(result: studies.StudyResult) -> str:

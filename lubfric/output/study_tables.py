@@ -7,7 +7,7 @@ from html import escape
 import numpy as np
 
 from ..models.shared import LEAST_STATED_RISE, GatheredTexts, numbers_in_words, peak_hertz_pressure, percent
-from ..quantities import COLUMNS, worded_value
+from ..quantities import COLUMNS, GIVEN_DIGITS, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY, SOURCES, Scene, budget
 from ..studies import INTERVAL_COLUMNS, StudyResult, columns_of_study, name_of
 from ..units import (
@@ -43,8 +43,6 @@ FOLDED_FILMS = ("full_load_film", "central_film", "min_film")
 UNBROKEN = "white-space: nowrap"
 # Digits of what is varied, which is exact. A choice: a smaller value makes neighbours alike.
 CELL_DIGITS = 4
-# Digits of where an operating point lies, at most. A choice: tables of users have as many.
-GIVEN_DIGITS = 6
 # Digits of the smaller of the asperity load ratio and the film load ratio, which are known to some percent, as f. A
 # choice: more shows digits that are not known.
 RATIO_DIGITS = 2

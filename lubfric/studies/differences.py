@@ -112,8 +112,9 @@ def _pairs(
     values = columns[keys[0]]
     order = values if values.dtype.kind in "fi" else codes
     common = groups_of(columns | {POINT: places}, (POINT, *others))
-    for group in range(int(common.max(initial=-1)) + 1):
-        rows = np.flatnonzero((common == group) & known)
+    sorted_rows = np.argsort(common, kind="stable")
+    for group in np.split(sorted_rows, np.flatnonzero(np.diff(common[sorted_rows])) + 1):
+        rows = group[known[group]]
         (_, first) = np.unique(codes[rows], return_index=True)
         rows = rows[np.sort(first)]
         rows = rows[np.argsort(order[rows], kind="stable")].tolist()

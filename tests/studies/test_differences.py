@@ -89,6 +89,16 @@ def test_what_one_input_changes_is_stated_with_the_error_of_the_difference():
     assert not any("cannot be distinguished from" in line for line in distinct)
 
 
+def test_an_input_without_such_a_pair_is_named():
+    keys = ("lubricant.grade", "surface.sq", "bodies.width")
+    rows = [("ISO VG 46", 1e-7, 1e-3), ("ISO VG 68", 1e-7, 1e-3), ("ISO VG 46", 2e-7, 2e-3), ("ISO VG 68", 3e-7, 1e-3)]
+    lines = study_answer.answer_lines(made(lubfric.plan_study(OIL, {keys: rows}, [0.3]), [0.1, 0.11, 0.12, 0.13]))
+    assert [line.partition(" (points")[2][:8] for line in lines if line.startswith("From ")] == [" 1 and 2", " 2 and 4"]
+    assert any(
+        line.startswith("What length of the line contact does by itself is not known, because") for line in lines
+    )
+
+
 @pytest.mark.parametrize("rolling, is_stated", [([9.7, 5.7, 13.1], True), ([9.7, 13.1, 5.7], False)])
 def test_the_reason_for_another_order_of_the_power_loss_is_the_rolling_resistance(rolling, is_stated):
     resistance = 1e-3 * np.array(rolling) / 0.3
