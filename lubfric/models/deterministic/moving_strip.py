@@ -175,10 +175,10 @@ class ExpectedCourse:
     on_longer: float
 
 
-# On two lengths of cells (verification/campaigns/moving_coverage): 3 to 6 steps on the contacts of
-# `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at
-# 0.01 m/s); bearing 2 to 3 half-widths, gear flank 6, needle roller 10; 0.49 (gear flank) and 0.52 (needle roller) on
-# longer cells.
+# Where a strip is solved on two lengths of cells. Measured by verification/campaigns/moving_coverage. The strip at rest
+# took 3 to 6 steps on the contacts of `FACTORISATIONS_IN_A_STEP`, and more on a light contact whose asperities carry the
+# load (the bodies of the scene "paper" at 0.01 m/s). The roughness travelled 2 to 3 half-widths in a bearing, 6 on a gear
+# flank and 10 in a needle roller. A step on longer cells took 0.49 (gear flank) and 0.52 (needle roller) of the work.
 EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
 
 # On the long cells of the quick model: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of
