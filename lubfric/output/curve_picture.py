@@ -18,7 +18,7 @@ from ..models.shared import Violation, effect_in_words
 from ..quantities import NUMBERS, counted
 from .curve_answer import model_in_words
 from .describe import is_among
-from .picture_options import WITHOUT_ADDED, PictureOptions
+from .picture_options import SPEED_AXIS, WITHOUT_ADDED, X_LABELS, PictureOptions
 from .pictures import plot_stribeck, plot_traction
 
 if TYPE_CHECKING:
@@ -69,6 +69,26 @@ def points_of_record(source: Path, columns: Columns, record: dict[str, Any]) -> 
         first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
         raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
     return points
+
+
+def over_x(columns: Columns, record: dict[str, Any], kind: str) -> Columns:
+    """Return the ``columns`` of a Stribeck curve with those of its axis, of a ``kind`` in `X_LABELS`; the ``record`` has
+    viscosity, load and length. Raises `InputError` where the curve has no such number, or it does not rise with the
+    speed."""
+    if kind == SPEED_AXIS:
+        return columns
+    speed = np.abs(columns["speed"])
+    if kind == "lambda":
+        x = columns["lambda_ratio"]
+    else:
+        (bodies, lubricant) = (record["scene"][name] for name in ("bodies", "lubricant"))
+        x = lubricant["viscosity"] * speed * bodies["width"] / bodies["load"]
+    shown = drawable(columns)
+    rising = x[shown][np.argsort(speed[shown])]
+    if not (rising > 0).all() or not (np.diff(rising) > 0).all():
+        message = f" = {kind!r}: the {X_LABELS[kind].partition(' $')[0]} of this curve does not rise with the speed"
+        raise InputError(message, "--x", recommendation="omit it")
+    return type(columns)({**columns, studies.OVER_X: x})
 
 
 def among_requested(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._base import figures
+from ..quantities import axis_label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,6 +17,14 @@ if TYPE_CHECKING:
 
 # Panels of a picture from the top, by the table that it is drawn from.
 PANELS = {"stribeck": ("friction", "load", "film"), "traction": ("friction", "load", "film", "temperature")}
+
+# What a Stribeck curve may be over, with its label; {}: that of the speed.
+SPEED_AXIS = "speed"
+X_LABELS = {
+    SPEED_AXIS: "",
+    "lambda": axis_label("lambda_ratio"),
+    "hersey": "Hersey number $ηU/w$ (-), $w$ the load per length",
+}
 
 # Lines of a curve that a user may omit, by their names in its key.
 WITHOUT_ADDED = "added speeds"  # of --without: points that were solved in addition to the requested ones
@@ -40,6 +49,8 @@ class PictureOptions:
     Attributes
     ----------
     panels : of a Stribeck or a traction curve, of its `PANELS`
+    x : what a Stribeck curve is over, of `X_LABELS`
+    parts_of : names of those of several curves whose asperity and fluid friction is drawn too
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
     width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
     dpi : points of a PNG per inch; None: `PRINTED_DPI` where the width is chosen, else that of the style
@@ -51,6 +62,8 @@ class PictureOptions:
     """
 
     panels: tuple[str, ...] = PANELS["traction"]
+    x: str = SPEED_AXIS
+    parts_of: tuple[str, ...] = ()
     x_scale: str | None = None
     y_scale: str | None = None
     width: float | None = None

@@ -13,7 +13,7 @@ import numpy as np
 from .._base import FloatArray, figures
 from ..errors import InputError
 from ..samples import is_extended, is_measured
-from ..studies import OF_TOLERANCES, friction_over_speed, gaps_of, interval_band, mark_models
+from ..studies import OF_TOLERANCES, OVER_X, friction_over_speed, gaps_of, interval_band, mark_models
 from ..time import (
     add_angle_axis,
     band_label,
@@ -24,7 +24,7 @@ from ..time import (
 )
 from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
-from .picture_options import PANELS, PictureOptions
+from .picture_options import PANELS, X_LABELS, PictureOptions
 from .point_picture import draw_point
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ NOT_FULFILLED_HERE = "Assumptions of the model that this point does not fulfil (
 # Choices, by looking at the figures.
 FRAMES = 150  # of an animation at most, spread over the run
 PANEL_HEIGHTS = {"friction": 3.0, "load": 1.5, "film": 2.0, "temperature": 1.5}  # inch, at the usual width
-LEAST_OF_PANEL = 0.6  # of the height of a panel, without its labels and the key above it
+LEAST_OF_PANEL = 0.5  # of the height of a panel, without its labels and the key above it
 HISTORY_HEIGHTS = (1.7, 1.8, 1.5, 1.8)  # inch, at the usual width: speeds, films, load ratios, f
 LAST_HEIGHT = 1.4  # inch, at the usual width: of friction force and power loss
 LONE = 2.0  # factor between a lone speed and the ends of its axis
@@ -78,7 +78,7 @@ def plot_stribeck(
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    speed = np.abs(c["speed"])
+    speed = c.get(OVER_X, np.abs(c["speed"]))
     if _is_point(order, measured, options):
         place = f"U = {worded(float(c['speed'][0]), 'm/s')}"
         _save_point(path, c, panels, f"{title}\n{place}", [violations[i] for i in order], options)
@@ -102,7 +102,7 @@ def plot_stribeck(
     if "film" in axes:
         _films(axes["film"], speed, c)
     last = shown[-1]
-    last.set(xscale="log", xlabel=figures.speed_label(c["speed"]))
+    last.set(xscale="log", xlabel=X_LABELS[options.x] or figures.speed_label(c["speed"]))
     if speed.size == 1:  # a narrow bar in the middle, beside what was measured
         last.set_xlim(speed[0] / LONE, speed[0] * LONE)
     options.scale(last, friction=axes.get("friction"), f=c["coefficient"])

@@ -29,6 +29,7 @@ from .curve_picture import (
     among_requested,
     draw_curve,
     operating_point_of_record,
+    over_x,
     points_of_record,
     record_of_point,
     table_of,
@@ -37,7 +38,7 @@ from .curve_picture import (
 from .fields import read_contact
 from .fit_picture import FIT, plot_fit, read_fit
 from .operating_point import operating_point_of
-from .picture_options import LINES, PANELS, WITHOUT_ADDED, PictureOptions
+from .picture_options import LINES, PANELS, SPEED_AXIS, WITHOUT_ADDED, X_LABELS, PictureOptions
 from .pictures import plot_history
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR
 from .study_pictures import plot_study, solved_so_far
@@ -105,6 +106,7 @@ def plot_again(arguments: Namespace) -> None:
     else:
         points = points_of_record(folder / f"{name}.csv", columns, record)
         columns, points = among_requested(columns, points, record, _left_out(arguments))
+        columns = over_x(columns, record, options.x)
         again = partial(
             draw_curve,
             columns=columns,
@@ -223,7 +225,7 @@ def _refuse(arguments: Namespace, names: Sequence[str], why: str) -> None:
 def _plot_study_again(arguments: Namespace) -> None:
     """Draw the picture of a study again; of one that is not finished, in a folder of its own, as the study may be
     running, with a line on stderr that says how much of it is drawn."""
-    of_runs = (*OF_MEASURED, "panels", "x_scale", "y_scale", "interval")
+    of_runs = (*OF_MEASURED, "panels", "x", "x_scale", "y_scale", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a study; omit it")
     options = picture_options(arguments, "study")
     result = studies.open_study(arguments.folder)
@@ -242,7 +244,7 @@ def _plot_study_again(arguments: Namespace) -> None:
 
 def _plot_fit_again(arguments: Namespace) -> None:
     """Draw the picture of a fit again."""
-    of_runs = (*OF_MEASURED, "panels", "without", "interval")
+    of_runs = (*OF_MEASURED, "panels", "x", "without", "interval")
     _refuse(arguments, of_runs, f"is for the picture of a run, and {arguments.folder} has a fit; omit it")
     options = picture_options(arguments, "fit")
     write_picture(arguments, "fit", partial(plot_fit, record=read_fit(arguments.folder / FIT), options=options))
@@ -250,7 +252,7 @@ def _plot_fit_again(arguments: Namespace) -> None:
 
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
-    of_curves = (*OF_MEASURED, "panels", "x_scale", "y_scale", "without", "interval")
+    of_curves = (*OF_MEASURED, "panels", "x", "x_scale", "y_scale", "without", "interval")
     _refuse(arguments, of_curves, "is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
     options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))
@@ -314,6 +316,9 @@ def picture_options(arguments: Namespace, name: str) -> PictureOptions:
     for option, scale in scales.items():
         if scale is not None:
             validate.choice(f"--{option.replace('_', '-')}", scale, AXIS_SCALES)
+    over = SPEED_AXIS if arguments.x is None else validate.choice("--x", arguments.x, X_LABELS)
+    if over != SPEED_AXIS and (name != "stribeck" or arguments.measured is not None):
+        raise InputError("--x is for the picture of a Stribeck curve without a measured one; omit it")
     form = INTERVAL_FORMS[0]
     if arguments.interval is not None:
         if name == "history":
@@ -325,6 +330,7 @@ def picture_options(arguments: Namespace, name: str) -> PictureOptions:
         raise InputError(f"--without {lines[0]!r} is for a curve, and this is {TABLES.get(name, f'a {name}')}; omit it")
     return PictureOptions(
         panels=panels,
+        x=over,
         width=_width(arguments),
         dpi=_dpi(arguments),
         **scales,

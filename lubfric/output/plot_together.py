@@ -15,8 +15,8 @@ from .. import studies
 from .._base import figures, read_table, validate
 from ..errors import InputError
 from .commands import read_record
-from .curve_picture import drawable, points_of_record, violations_of_record
-from .picture_options import PictureOptions
+from .curve_picture import drawable, over_x, points_of_record, violations_of_record
+from .picture_options import SPEED_AXIS, X_LABELS, PictureOptions
 from .pictures import ring_points, traction_over_ratio
 from .plot_again import TABLES, measured_of, picture_options, plot_again, write_picture
 
@@ -47,6 +47,8 @@ def plot(arguments: Namespace) -> None:
     if not others:
         if labels:
             raise InputError("--labels names the curves of several folders, and there is one; omit it")
+        if arguments.parts_of is not None:
+            raise InputError("--parts-of is for the picture of several curves, and there is one; omit it")
         plot_again(of_first)
         return
     for option in OF_ONE_RUN:
@@ -60,14 +62,24 @@ def plot(arguments: Namespace) -> None:
     names = [name for name, _ in curves]
     if len(set(names)) < len(names):
         names = [folder.resolve().name for folder in arguments.folder]
+    options = picture_options(of_first, kind)
+    names = labels or names
+    records = map(read_record, arguments.folder)
+    columns = [over_x(columns, record, options.x) for (_, columns), record in zip(curves, records)]
     draw = partial(
         plot_curves,
-        curves=dict(zip(labels or names, (columns for _, columns in curves))),
+        curves=dict(zip(names, columns)),
         violations=[_violations(folder, kind) for folder in arguments.folder],
-        options=picture_options(of_first, kind),
+        options=replace(options, parts_of=_parts_of(arguments.parts_of, names)),
         measured=measured_of(of_first, kind),
     )
     write_picture(of_first, TOGETHER.format(kind), draw)
+
+
+def _parts_of(given: str | None, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the curves, of these ``names``, whose parts of f are drawn, as --parts-of names them."""
+    words = [] if given is None else given.split(",")
+    return tuple(validate.choice("--parts-of", word.strip(), names) for word in words)
 
 
 def _kind(folders: Sequence[Path]) -> str:
@@ -122,9 +134,10 @@ def plot_curves(
     ``measured``, without its parts. ``violations``: of each curve, the assumptions that are violated at each point."""
     figure = figures.new_figure(figsize=options.size([HEIGHT_OF_CURVES]))
     axes = figure.subplots()
-    shown = replace(options, without=(*OF_ONE_CURVE, *options.without), has_parts=False)
     models = {model for columns in curves.values() for model in columns.get("model", np.zeros(0, str)).tolist()}
     for place, (name, columns) in enumerate(curves.items()):
+        left_out = () if name in options.parts_of else OF_ONE_CURVE
+        shown = replace(options, without=(*left_out, *options.without), has_parts=False)
         if "ratio" in columns:
             color = figures.CURVE_COLOURS[place % len(figures.CURVE_COLOURS)]
             label = figures.plain_words(name)
@@ -133,7 +146,7 @@ def plot_curves(
             interval = "bars" if options.has_bars else "band"
             studies.draw_curve(axes, columns, name, name, interval=interval, without=shown.without, models=models)
     for columns, violated in zip(curves.values(), violations):
-        x = columns["ratio"] if "ratio" in columns else np.abs(columns["speed"])
+        x = columns["ratio"] if "ratio" in columns else columns.get(studies.OVER_X, np.abs(columns["speed"]))
         ring_points(axes, x, columns["coefficient"], violated, options)
     figures.key_above(axes)
     ratios = np.concatenate([columns.get("ratio", []) for columns in curves.values()])
@@ -141,6 +154,8 @@ def plot_curves(
         axes.set_xlabel("slide-roll ratio (-)")
         figures.log_if_wide(axes, "x", ratios)
         figures.key_above(axes)
+    if options.x != SPEED_AXIS:
+        axes.set_xlabel(X_LABELS[options.x])
     if measured is not None:
         measured.draw(axes, is_signed=bool((ratios < 0).any()))
         figures.key_above(axes)

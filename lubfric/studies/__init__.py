@@ -29,6 +29,7 @@ from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     LARGEST_BETWEEN,
     MOST_OF_POINTS,
+    OVER_X,
     check_tools,
     columns_of_study,
     friction_over_speed,

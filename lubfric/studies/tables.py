@@ -69,6 +69,9 @@ DRAWN_ERROR = 0.05
 # convention.
 LARGEST_BETWEEN = 0.5
 
+# Column of a curve for the axis of its picture, in place of the speed.
+OVER_X = "x"
+
 # Markers of points of simpler models, as large as the filled ones that they cover. A choice, by looking at the figures.
 HOLLOW_MARKERS = ("o", "s")
 
@@ -391,11 +394,12 @@ def friction_over_speed(
     ``others``: as of `interval_band`; ``has_interval``: whether there are any; ``without``: names of parts that are
     omitted; ``style``: of the line of f), by the ``columns`` of a `lubfric.StribeckResult`. Between two points where f
     is known to `DRAWN_ERROR` its line is solid, and dashed up to `LARGEST_BETWEEN`. ``models``: as of
-    `mark_models`. Points that failed, and rest, are omitted."""
+    `mark_models`. A column `OVER_X` takes the place of the speed on the axis. Points that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = {name: column[order] for name, column in columns.items()}
     speed = np.abs(c["speed"])
+    x = c.get(OVER_X, speed)
     load = c["contact_load"] + c["film_load"]
     curve = _interpolant(c)
     of_gaps = np.full(1, np.inf) if curve is None else errors_of_gaps(curve)
@@ -403,32 +407,40 @@ def friction_over_speed(
     color = style.get("color", figures.BLUE)
     errors: list[Line2D] = []
     if has_interval:
-        about = line and line[:2]
-        errors = interval_band(axes, speed, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
+        about = line and (_x_at(line[0], speed, x), line[1])
+        errors = interval_band(axes, x, c, about, has_parts=has_parts, as_bars=as_bars, color=color, others=others)
     if curve is not None and line is not None:
         is_whole = bool({"ls", "linestyle"} & set(style)) or of_gaps.max() <= DRAWN_ERROR
         gap = np.clip(np.searchsorted(curve.samples.speed, line[0], side="right") - 1, 0, of_gaps.size - 1)
         is_uncertain = (of_gaps > DRAWN_ERROR)[gap] & (not is_whole)
         shown = (np.where(is_uncertain, np.nan, line[1]), *line[2:])
-        (f, *of_parts) = figures.friction_lines(axes, line[0], shown, without=without, **style)
+        fine = _x_at(line[0], speed, x)
+        (f, *of_parts) = figures.friction_lines(axes, fine, shown, without=without, **style)
         if is_uncertain.any():
             joined = np.convolve(is_uncertain, (1, 1, 1), "same") > 0  # with the ends of the solid pieces
             dashed: dict[str, Any] = {"ls": "--", "color": color, "lw": f.get_linewidth()}
-            axes.plot(line[0], np.where(joined, line[1], np.nan), **dashed)
+            axes.plot(fine, np.where(joined, line[1], np.nan), **dashed)
             axes.plot([], [], ls="--", color=figures.GREY, label=figures.INTERPOLATED_BETWEEN)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=color)
+        axes.plot(x, c["coefficient"], "o", ms=4, color=color)
     else:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         if speed.size > 1:  # a dotted line joins the points, and is no curve
-            axes.plot(speed, parts[0], ls=style.get("ls", ":"), color=color, label=figures.NOT_BETWEEN)
+            axes.plot(x, parts[0], ls=style.get("ls", ":"), color=color, label=figures.NOT_BETWEEN)
         points = {"marker": "o", "ms": 4} | style | {"ls": ""}
-        (f, *of_parts) = figures.friction_lines(axes, speed, parts, without=without, **points)
-    mark_models(axes, speed, c, color, models)
+        (f, *of_parts) = figures.friction_lines(axes, x, parts, without=without, **points)
+    mark_models(axes, x, c, color, models)
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
     figures.key_above(axes)
     return FrictionLines(f=f, parts=tuple(of_parts), errors=tuple(errors))
+
+
+def _x_at(at: FloatArray, speed: FloatArray, x: FloatArray) -> FloatArray:
+    """Return the place on the axis of speeds ``at`` between the solved ones, (n,), that are at ``x``."""
+    if x is speed:
+        return at
+    return np.exp(PchipInterpolator(np.log(speed), np.log(x))(np.log(at)))
 
 
 def mark_models(

@@ -791,7 +791,7 @@ def test_key_and_text_leave_a_narrow_diagram_its_height(laid_out):
     plot_stribeck("x.png", COLUMNS, "title", [[warning]] * 4, options=options)
     (figure,) = laid_out
     figure.canvas.draw()
-    assert figure.axes[0].get_window_extent().height / figure.dpi > 1.3  # inch, of a panel of 2.4
+    assert figure.axes[0].get_window_extent().height / figure.dpi > 1.1  # inch, of a panel of 2.4
 
 
 def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(figures):

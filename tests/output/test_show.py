@@ -195,7 +195,9 @@ def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkey
         points = [{"validity": []} for _ in solved.speed]
         words = dict.fromkeys(("what", "consequence", "recommendation"), "film") | {"unit": "-"}
         points[1] = {"validity": [words | {"value": 2.0, "limit": 1.0, "severe": False}]}
-        record = {"scene": {"name": "roller"}, "points": points}
+        bodies = {"width": SCENE.bodies.width, "load": SCENE.bodies.load}
+        scene = {"name": "roller", "bodies": bodies, "lubricant": {"viscosity": SCENE.lubricant.viscosity}}
+        record = {"scene": scene, "points": points}
         (tmp_path / name / "result.json").write_text(json.dumps(record))
     both = ["plot", str(tmp_path / "a"), str(tmp_path / "b")]
     assert main([*both, "--without", "asperity-friction"]) == 0
@@ -212,6 +214,17 @@ def test_curves_of_several_runs_are_drawn_in_one_picture(curve, tmp_path, monkey
     assert main([*both, "--y-scale", "log"]) == 0
     (low, high) = saved[2].axes[0].get_ylim()
     assert 0 < low < curve.coefficient.min() and curve.coefficient.max() < high < 10 * curve.coefficient.max()
+    hersey = SCENE.lubricant.viscosity * curve.speed * SCENE.bodies.width / SCENE.bodies.load
+    for kind, x, label in (("hersey", hersey, "Hersey number"), ("lambda", curve.lambda_ratio, "lambda ratio")):
+        assert main([*both, "--x", kind, "--parts-of", "a"]) == 0
+        ax = saved[-1].axes[0]
+        np.testing.assert_allclose(lines(ax)["a"], np.stack([x, curve.coefficient], axis=1))
+        assert ax.get_xlabel().startswith(label)
+        parts = [line.get_color() for line in ax.lines if line.get_label() in ("asperity friction", "fluid friction")]
+        assert len(parts) == 2 and len(set(parts)) == 1  # of the one curve, in its colour
+    wrong = (["--x", "time"], ["--parts-of", "c"], ["--x", "lambda", "--measured", "m.csv"])
+    assert [main([*both, *options]) for options in wrong] == [2, 2, 2]
+    assert main(["plot", str(tmp_path / "a"), "--parts-of", "a"]) == 2
     for more, words in (
         (["--labels", "one"], "1 names for 2 folders"),
         (["--panels", "film"], "--panels is for the picture of one run"),
