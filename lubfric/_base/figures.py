@@ -51,6 +51,8 @@ ASPERITY_FRICTION = "asperity friction"
 FLUID_FRICTION = "fluid friction"
 OPERATING_POINT_MARK = "operating point"
 POINTS_IN_INCH = 72.0  # pt, by definition
+RIM_WIDTH = 2.0  # pt: of the bright rim of a dark line on a map; a choice, by looking at pictures of 85 mm
+DECADES_OF_NARROW_BAR = 3  # of ticks at most; a choice: "0.001" and "0.01" stay apart
 TICKS_OF_NARROW_BAR = 2  # intervals of such a bar in a narrow picture; a choice: numbers of three digits stay apart
 TICKS_OF_BAR = 4  # of a short bar of colours, about; a choice, by looking at pictures of 85 mm
 NOT_BETWEEN = "not known in between"  # of a dotted line between points; a longer name takes a column from narrow keys
@@ -58,6 +60,7 @@ INTERPOLATED_BETWEEN = "interpolated"  # of a dashed line between points
 
 # Choices, by looking at the figures.
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
+TICK_ROUNDING = 1e-9  # of a tick, relative
 KEY_ROOM = 0.98  # of the width of axes before the layout, which leaves less to them: of the key above them
 NARROW_KEY = {"handlelength": 2.0, "handletextpad": 0.5, "columnspacing": 1.0}  # letters: lengths in a narrow figure
 KEY_LINE = 3.0  # letters: length of the lines in a key, such that dashes and dots differ
@@ -389,10 +392,14 @@ def _lines(text: str, width: int) -> list[str]:
 
 
 def hertz_strip(axes: Axes, half_width: float) -> None:
-    """Draw the edges of a Hertz strip of this ``half_width`` [m] on axes in µm; none where it is not known."""
+    """Draw the edges of a Hertz strip of this ``half_width`` [m] on axes in µm, dark with a bright rim, which is seen on
+    all colours; none where it is not known."""
+    from matplotlib.patheffects import withStroke
+
     if np.isfinite(half_width):
         for edge in (-half_width, half_width):
-            axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
+            rim = [withStroke(linewidth=RIM_WIDTH, foreground="w")]
+            axes.axvline(edge * 1e6, color="k", lw=0.8, ls="--", path_effects=rim)
 
 
 # Distance of a bar of colours from the map below it [inch], at most. A choice, by looking at the figures.
@@ -437,15 +444,16 @@ def _ticks_to_the_end(image: AxesImage, bar: Any) -> None:
     from matplotlib.ticker import LogLocator, MaxNLocator
 
     (low, high) = image.get_clim()
+    is_narrow = bar.ax.get_figure(root=True).get_figwidth() <= NARROW_FIGURE
     if not isinstance(image.norm, LogNorm):
-        figure = bar.ax.get_figure(root=True)
-        count = TICKS_OF_NARROW_BAR if figure.get_figwidth() <= NARROW_FIGURE else TICKS_OF_BAR
+        count = TICKS_OF_NARROW_BAR if is_narrow else TICKS_OF_BAR
         ticks = MaxNLocator(count, steps=[1, 2, 2.5, 5, 10], min_n_ticks=min(3, count)).tick_values(low, high)
         image.set_clim(min(low, ticks[0]) if low < 0 else low, ticks[-1])
         bar.set_ticks([tick for tick in ticks if tick >= low])
     elif high > 100.0 * low:
         decades = LogLocator(numticks=2 * TICKS_OF_BAR).tick_values(low, high)
-        bar.set_ticks([decade for decade in decades if low <= decade <= high])
+        inside = [decade for decade in decades if low * (1 - TICK_ROUNDING) <= decade <= high]
+        bar.set_ticks(inside[:: 2 if is_narrow and len(inside) > DECADES_OF_NARROW_BAR else 1])
 
 
 def narrow_to_map(axes: Axes) -> None:

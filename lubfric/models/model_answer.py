@@ -32,7 +32,7 @@ class ContactFields:
     gap : between the rough surfaces [m]
     deflection : of both bodies by the pressure [m], up to a constant; of a deterministic solve with its dents
     film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
-    shear : shear stress [Pa]; NaN where the solve has none
+    shear : isothermal shear stress [Pa], where f includes the heat within the contact; NaN where the solve has none
     half_width : of the Hertz strip of the total load [m]; NaN without one
     pressure_includes_film : whether ``pressure`` is of film and contact together, in their rough gap
     """

@@ -11,7 +11,7 @@ import numpy as np
 from .._base import figures
 from ..models import ContactFields
 from ..units import worded
-from .picture_options import INCH, PictureOptions
+from .picture_options import CONTACT_PANELS, INCH, PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 MOST_DRAWN_LENGTH = 3.0  # times as long along y as along x: no more is drawn whole
 SLENDER_PICTURE = 1.5  # times as long along y as along x: a narrow picture
 PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
+LARGEST_COLOURED = 0.98  # quantile of the loaded cells at which the colours may end
+LEAST_COLOURED = 0.01  # of the largest value: what a loaded cell has at least
+SPOT_ABOVE = 1.25  # ratio of the largest value to that quantile from which they end there
 MAP_HEIGHT = 4.6  # inch: of a map of fields, where its width allows it
 MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
 MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
@@ -106,27 +109,43 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
     x = fields.x[near]
     y = fields.y
     part = drawn_part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
-    size = size_of_maps(x, y[part], 3) if options.width is None else _size_below_bars(x, y[part], 3, options.width)
+    panels = [name for name in CONTACT_PANELS if name in options.panels] or [*CONTACT_PANELS]
+    count = len(panels)
+    size = (
+        size_of_maps(x, y[part], count) if options.width is None else _size_below_bars(x, y[part], count, options.width)
+    )
     figure = figures.new_figure(figsize=size, layout=_layout(options, compress=True))
     stacked = options.width is None and are_stacked(x, y[part])
-    rows = 3 if stacked else 1
-    for axes, (label, unit, field, colours, norm) in zip(
-        figure.subplots(rows, 3 // rows, sharex=stacked, sharey=True),
-        (
-            ("pressure", "Pa", fields.pressure, "magma_r", None),
-            ("gap", "m", fields.gap, "viridis", LogNorm()),
-            ("shear" if options.is_narrow else "shear stress", "Pa", fields.shear, "cividis", None),
-        ),
+    rows = count if stacked else 1
+    shown: dict[str, tuple[str, str, np.ndarray, str]] = {
+        "pressure": ("pressure", "Pa", fields.pressure, "magma_r"),
+        "gap": ("gap", "m", fields.gap, "viridis"),
+        "shear": ("shear" if options.is_narrow else "isothermal shear stress", "Pa", fields.shear, "cividis"),
+    }
+    for axes, panel in zip(
+        figure.subplots(rows, count // rows, sharex=stacked, sharey=True, squeeze=False).flat, panels
     ):
+        label, unit, field, colours = shown[panel]
         values, name = figures.in_unit_for(field[near][:, part], unit)
+        scale: dict[str, Any] = {"norm": LogNorm()} if panel == "gap" else _robust_scale(values)
         figures.field_image(
-            axes, x, y[part], values, colours, f"{label} ({name})", place=_place_of_bar(options), norm=norm
+            axes, x, y[part], values, colours, f"{label} ({name})", place=_place_of_bar(options), **scale
         )
         _hertz_strip(axes, contact.half_width, options)
         axes.label_outer()
     solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part, 'this strip')}"
-    _title(figure, f"U = {contact.speed:.4g} m/s{solve}; dashed: Hertz strip", options)
+    heat = "; f includes heat, the shear stress does not" if "shear" in panels and not options.is_narrow else ""
+    _title(figure, f"U = {contact.speed:.4g} m/s{solve}{heat}; dashed: Hertz strip", options)
     return figure
+
+
+def _robust_scale(values: np.ndarray) -> dict[str, Any]:
+    """Return the end of the colours of ``values``, where a few cells of the contact are far above the others: their
+    quantile `LARGEST_COLOURED`. The bar of colours has an arrow there."""
+    high = float(values.max())
+    carries = values[values > LEAST_COLOURED * high]
+    most = float(np.quantile(carries, LARGEST_COLOURED)) if carries.size else high
+    return {"vmin": min(0.0, float(values.min())), "vmax": most, "extend": "max"} if high > SPOT_ABOVE * most else {}
 
 
 def _near(fields: ContactFields, half_width: float) -> np.ndarray:
@@ -153,6 +172,8 @@ def _place_of_bar(options: PictureOptions) -> Literal["right", "top"]:
 
 
 def _title(figure: Figure, text: str, options: PictureOptions) -> None:
+    if not options.has_title:
+        return
     figure.suptitle(text, fontsize=None if options.is_narrow else 10, wrap=options.width is not None)
 
 
@@ -288,7 +309,7 @@ def _stacked(count: int, ratio: float, options: PictureOptions) -> tuple[Figure,
 def _hertz_strip(axes: Axes, half_width: float, options: PictureOptions) -> None:
     """Draw the edges of the Hertz strip, and label the axis along the motion."""
     figures.hertz_strip(axes, half_width)
-    axes.set_xlabel("x (µm)" if options.is_narrow else "x (µm), along the motion")
+    axes.set_xlabel("x (µm), U →" if options.is_narrow else "x (µm), along the motion, U →")
 
 
 def _key_below(figure: Figure, axes: Axes) -> None:

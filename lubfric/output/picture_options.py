@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 # Panels of a picture from the top, by the table that it is drawn from.
 PANELS = {"stribeck": ("friction", "load", "film"), "traction": ("friction", "load", "film", "temperature")}
 
+CONTACT_PANELS = ("pressure", "gap", "shear")  # of the picture of a contact by the deterministic model
+
 # What a Stribeck curve may be over, with its label; {}: that of the speed.
 SPEED_AXIS = "speed"
 X_LABELS = {
@@ -48,7 +50,7 @@ class PictureOptions:
 
     Attributes
     ----------
-    panels : of a Stribeck or a traction curve, of its `PANELS`
+    panels : of a Stribeck or a traction curve, of its `PANELS`; of a contact, of `CONTACT_PANELS`
     x : what a Stribeck curve is over, of `X_LABELS`
     parts_of : names of those of several curves whose asperity and fluid friction is drawn too
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data

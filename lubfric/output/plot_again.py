@@ -38,7 +38,7 @@ from .curve_picture import (
 from .fields import read_contact
 from .fit_picture import FIT, plot_fit, read_fit
 from .operating_point import operating_point_of
-from .picture_options import LINES, PANELS, SPEED_AXIS, WITHOUT_ADDED, X_LABELS, PictureOptions
+from .picture_options import CONTACT_PANELS, LINES, PANELS, SPEED_AXIS, WITHOUT_ADDED, X_LABELS, PictureOptions
 from .pictures import plot_history
 from .run_files import PICTURE_FORMATS, RESOLVED_STUDY, SO_FAR
 from .study_pictures import plot_study, solved_so_far
@@ -252,12 +252,25 @@ def _plot_fit_again(arguments: Namespace) -> None:
 
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
-    of_curves = (*OF_MEASURED, "panels", "x", "x_scale", "y_scale", "without", "interval")
+    of_curves = (*OF_MEASURED, "x", "x_scale", "y_scale", "interval")
     _refuse(arguments, of_curves, "is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
-    options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))
-    if options.is_narrow and contact.fields is not None:
-        say(f"for the caption, as a narrow picture has no room for it: {contact.fields.solve}")
+    fields = contact.fields
+    if arguments.panels is not None and (fields is None or not fields.pressure_includes_film):
+        raise InputError("--panels with --contact is for a contact by the deterministic model; omit it")
+    panels = [] if arguments.panels is None else arguments.panels.split(",")
+    left_out = [] if arguments.without is None else [arguments.without]
+    if left_out:
+        validate.choice("--without", left_out[0].strip(), ("title",))
+    options = PictureOptions(
+        panels=tuple(validate.choice("--panels", word.strip(), CONTACT_PANELS) for word in panels) or CONTACT_PANELS,
+        width=_width(arguments),
+        dpi=_dpi(arguments),
+        has_title=not left_out,
+    )
+    if options.is_narrow and fields is not None:
+        heat = "; the shear stress is isothermal, f includes heat" if "shear" in options.panels else ""
+        say(f"for the caption, as a narrow picture has no room for it: {fields.solve}{heat}")
     write_picture(arguments, f"contact_at_{contact.speed:.4g}", partial(plot_contact, contact=contact, options=options))
 
 

@@ -364,6 +364,47 @@ def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(laid_out):
     assert laid_out[0].axes[0].get_ylabel() == "y (µm)"  # shorter than its axis
 
 
+def spotted_contact():
+    """A deterministic contact of 1 GPa, one cell of which has 7.5 GPa, under a gap from 1 nm to 5 µm."""
+    x = np.linspace(-40e-6, 40e-6, 41)
+    pressure = np.where(np.abs(x) < 2e-5, 1e9, 0.0)[:, None] * np.ones(40)
+    gap = np.geomspace(1e-9, 5e-6, 41)[:, None] * np.ones(40)
+    pressure[20, 20] = 7.5e9
+    names = ("heights", "deflection", "film", "gap")
+    fields = ContactFields(
+        solve="a strip",
+        x=x,
+        y=2e-6 * np.arange(40),
+        **dict.fromkeys(names, gap),
+        pressure=pressure,
+        shear=0.1 * pressure,
+        pressure_includes_film=True,
+    )
+    return DrawnContact(speed=1.0, half_width=2e-5, fields=fields, has_film=False)
+
+
+def test_one_spot_does_not_set_the_colours_of_a_contact(figures):
+    """The bar ends with an arrow; numbers of the narrow bar of the gap stay apart, and the arrow of U is in the label."""
+    plot_contact("x.png", spotted_contact(), PictureOptions(width=0.085))
+    maps = [axes for axes in figures[0].axes if axes.images]
+    (pressure, gap, shear) = (axes.images[0] for axes in maps)
+    assert pressure.get_clim() == (0.0, 1.0) and pressure.colorbar.extend == "max"
+    assert shear.get_clim() == pytest.approx((0.0, 100.0)) and shear.colorbar.extend == "max"
+    assert gap.colorbar.extend == "neither" and gap.colorbar.get_ticks().tolist() == pytest.approx([1e-3, 0.1])
+    assert all(axes.get_xlabel() == "x (µm), U →" for axes in maps)
+    (dashed, _) = [line for line in maps[1].lines if line.get_linestyle() == "--"]
+    assert dashed.get_path_effects() and dashed.get_color() == "k"
+
+
+def test_panels_and_the_title_of_a_contact_are_chosen(figures):
+    options = PictureOptions(panels=("gap", "pressure"), has_title=False)
+    plot_contact("x.png", spotted_contact(), options)
+    plot_contact("x.png", spotted_contact())
+    labels = [[bar.get_ylabel() for bar in figure.axes if not bar.images] for figure in figures]
+    assert labels == [["pressure (GPa)", "gap (µm)"], ["pressure (GPa)", "gap (µm)", "isothermal shear stress (MPa)"]]
+    assert figures[0].get_suptitle() == "" and "heat, the shear stress does not" in figures[1].get_suptitle()
+
+
 def test_the_key_of_a_narrow_figure_has_few_rows():
     axes = new_figure(figsize=(85 / 25.4, 60 / 25.4)).subplots()
     errors = {"model_error": np.full(4, 0.1), "sampling_error": np.full(4, 0.05), "sampling_freedom": np.full(4, 9)}
@@ -550,7 +591,9 @@ def test_a_contact_is_drawn_again_from_its_file(laid_out, solved, kept, monkeypa
     ("options", "said"),
     [
         (["--contact", "0.3"], "has the fields at 0.01 m/s"),
-        (["--contact", "0.01", "--panels", "film"], "omit one of them"),
+        (["--contact", "0.01", "--panels", "gap"], "is for a contact by the deterministic model"),
+        (["--contact", "0.01", "--interval", "bars"], "omit one of them"),
+        (["--contact", "0.01", "--without", "warnings"], "allowed: 'title'"),
         (["--contact", "fast"], "--contact"),
     ],
 )
