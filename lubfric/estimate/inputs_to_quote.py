@@ -121,16 +121,18 @@ def _domain(scene: Scene) -> Iterator[str]:
 
 
 def grid_to_quote(scene: Scene, maps: Sequence[Surface]) -> Iterator[str]:
-    """Yield the grid of generated ``maps`` as it was solved, which may be another one than that of the scene's keys;
-    that of a map from a file is with its file."""
-    if not maps or any(rough.file is not None for rough, _ in rough_bodies(scene)):
+    """Yield the grid of generated ``maps`` as it was solved, which on strips may be another one than that of the
+    scene's keys; that of a map from a file is with its file. Without maps, the keys of a patch."""
+    shape = maps[0].shape if maps else scene.contact.shape
+    spacing = maps[0].spacing if maps else scene.contact.spacing
+    is_strips = takes_strips(scene)
+    is_from_file = any(rough.file is not None for rough, _ in rough_bodies(scene))
+    if shape is None or spacing is None or is_from_file or (is_strips and not maps):
         return
-    (nx, ny) = maps[0].shape
-    steps = worded(tuple(dict.fromkeys(maps[0].spacing)), "m").replace(" and ", " x ")
-    if takes_strips(scene):
-        yield f"grid of the height map: {nx} points along the motion, {steps} apart"
-    else:
-        yield f"grid of the height map: {nx} x {ny} points, {steps} apart"
+    (dx, dy) = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+    steps = worded(tuple(dict.fromkeys((dx, dy))), "m").replace(" and ", " x ")
+    points = f"{shape[0]} points along the motion" if is_strips else f"{shape[0]} x {shape[1]} points"
+    yield f"grid of the height map: {points}, {steps} apart"
 
 
 def _lengths_in_words(lengths: float | tuple[float, float]) -> str:

@@ -175,9 +175,7 @@ def test_the_paragraph_states_ranges_and_what_a_curve_and_a_run_in_time_vary():
     without = inputs_to_quote(PATCH, has_sampling_error=False)
     assert sorted({*without} - {*inputs_to_quote(PATCH)}) == ["sampling error of f not known"]
     strips = {*inputs_to_quote(PATCH.with_(numerics={"sampling": "strips"}))}
-    of_patch = [
-        "one patch of the surface in place of strips",
-    ]
+    of_patch = ["grid of the height map: 64 x 48 points, 1.4 µm apart", "one patch of the surface in place of strips"]
     assert sorted({*inputs_to_quote(PATCH)} - strips) == of_patch
     # a generated map may be on another grid than contact.spacing: the one that was solved is stated
     whole_map = lubfric.Surface(numpy.zeros((64, 48)), 2e-6)
