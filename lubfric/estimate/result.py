@@ -12,7 +12,14 @@ import numpy as np
 from .._base import Renamed, Shown, __version__, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
-from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation, alpha_beside_interval
+from ..models.shared import (
+    Assumption,
+    Decision,
+    UnmodelledEffect,
+    Violation,
+    alpha_beside_interval,
+    length_beside_interval,
+)
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
 from .inputs_to_quote import span_to_quote
@@ -90,8 +97,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def not_in_interval(self) -> str:
-        """Heat that neither f nor its interval includes, and the range of an estimated pressure-viscosity coefficient,
-        which the interval does not include, as text; "" if there are none."""
+        """Heat that neither f nor its interval includes, the range of an estimated pressure-viscosity coefficient, and
+        another correlation length if it may change f by more than the interval, as text; "" if there are none."""
         heat = [violation for violation in self.validity if violation.assumption == Assumption.HEAT_INCLUDED]
         parts = [
             f"f and its interval are without the heat of the film, which lowers f by up to {each.value_in_words} %"
@@ -99,7 +106,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         ]
         has_interval = math.isfinite(self.uncertainty.sampling)
         by_alpha = alpha_beside_interval(self.unmodelled_effects) if has_interval else ""
-        return "; ".join(filter(None, (*parts, by_alpha)))
+        by_length = length_beside_interval(self.unmodelled_effects, self.coefficient, self.uncertainty.interval)
+        return "; ".join(filter(None, (*parts, by_alpha, by_length)))
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used for this result, the model's first: one a line, with ``format``

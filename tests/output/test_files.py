@@ -94,7 +94,8 @@ def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path):
         effects = re.sub(r"\s+", " ", text.partition("Effects not modelled")[2].partition("Inputs")[0]).lower()
         assert curve.points[0].unmodelled_effects
         for effect in curve.points[0].unmodelled_effects:
-            change = "not estimated" if math.isnan(effect.change) else f"{100 * effect.change:+.2g} %"
+            changes = " to ".join(f"{100 * each:+.2g}" for each in effect.changes)
+            change = "not estimated" if math.isnan(effect.change) else f"{changes} %"
             assert f"{effect.what}. {change} {effect.recommendation}".lower() in effects
         assert "Method and sources" in text and f"for {len(speeds)} speeds" in text
         assert ("lift-off speed is above the speeds solved" in text) == (len(speeds) == 3)

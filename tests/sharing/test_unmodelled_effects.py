@@ -1,8 +1,10 @@
 """What a scene leaves out, told with its likely size: against the friction of scenes that have it."""
 
+import csv
 import dataclasses
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from lubfric.models.shared import (
     change_in_words,
     effect_in_words,
     expected_effects,
+    length_beside_interval,
     unmodelled_effects,
 )
 from lubfric.output import describe_scene
@@ -143,7 +146,7 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
     assert told(result.unmodelled_effects, "f_b") == pytest.approx(
         -0.25 * result.boundary_force / 2000.0 / result.coefficient
     )
-    sizes = [abs(effect.change) for effect in result.unmodelled_effects if not math.isnan(effect.change)]
+    sizes = [effect.largest_change for effect in result.unmodelled_effects if not math.isnan(effect.change)]
     assert sizes == sorted(sizes, reverse=True) and math.isnan(told(result.unmodelled_effects, "motion"))
 
 
@@ -269,12 +272,65 @@ def test_rolling_friction_that_a_given_inlet_omits_is_reported(length):
     ],
 )
 def test_the_correlation_length_of_generated_roughness_is_listed_where_it_matters(slip, speed, asperities, is_listed):
-    """In mixed lubrication; where roughness moves, in any film that is not thick."""
+    """In mixed lubrication; where roughness moves, in any film that is not thick. Without asperities its change is not
+    estimated."""
     f = max(asperities, 0.02)
     effects = unmodelled_effects(ROLLER.with_(motion={"slide_roll_ratio": slip}), SQ, speed, (asperities, f))
     listed = [effect for effect in effects if "correlation length" in effect.what]
     assert len(listed) == is_listed
-    assert all(math.isnan(effect.change) and "surface.correlation_length" in effect.recommendation for effect in listed)
+    for effect in listed:
+        assert "surface.correlation_length" in effect.recommendation
+        assert [math.isnan(change) for change in effect.changes] == 2 * [asperities <= 0.02 * 0.12]
+
+
+LENGTHS = Path(__file__).parents[2] / "verification/campaigns/calibration/tables/lengths.csv"
+
+
+def effects_of_length(row, **surface):
+    """The effects of the correlation length at the f and the asperity load ratio in a ``row`` of `LENGTHS`."""
+    (slip, f_b, contact, f) = (float(row[name]) for name in ("slip", "friction", "contact", "f"))
+    scene = ROLLER.with_(
+        bodies={"boundary_friction_coefficient": f_b}, motion={"slide_roll_ratio": slip}, surface=surface
+    )
+    effects = unmodelled_effects(scene, SQ, 1.0, (f_b * contact, f))
+    assert effects
+    return [each for each in effects if each.kind == "correlation_length"]
+
+
+def test_the_change_by_another_correlation_length_is_about_that_of_solved_contacts():
+    """At half and at twice the length, at rest and rolling, by the quick model: with the sign of each change above 5 %,
+    and to a factor of two in six of ten; with its range in the scene it is in the interval, and no effect."""
+    contacts = {}
+    with LENGTHS.open() as file:
+        for row in csv.DictReader(file):
+            contacts.setdefault((row["motion"], row["seed"]), {})[row["factor"]] = row
+    ratios = []
+    for by_factor in contacts.values():
+        row = by_factor["1.0"]
+        if not 0.02 < float(row["contact"]) < 0.98:
+            continue
+        changes = [change for effect in effects_of_length(row) for change in effect.changes] or [0.01, -0.01]
+        for change, factor in zip(changes, ("0.5", "2.0"), strict=True):
+            if factor in by_factor:
+                solved = float(by_factor[factor]["f"]) / float(row["f"]) - 1
+                ratios += [solved / change] if abs(solved) > 0.05 else []
+        assert effects_of_length(row, correlation_length=[1.5e-5, 1e-5, 3e-5]) == []
+    ratios = np.array(ratios)
+    assert ratios.size > 40 and ratios.min() > 0 and 0.8 < np.median(ratios) < 1.4
+    assert np.mean((ratios > 0.5) & (ratios < 2)) > 0.6
+
+
+def test_a_correlation_length_that_may_leave_the_interval_is_beside_it():
+    """Both f of the effect are stated, and none where twice the change is within half the width of the interval."""
+    effect = UnmodelledEffect(
+        what="length", change=0.25, other_change=-0.2, recommendation="", kind="correlation_length"
+    )
+    text = length_beside_interval([effect], 0.06, (0.04, 0.065))
+    assert "half of it gives about 0.075, twice about 0.048" in text
+    for effects, interval in (([effect], (0.02, 0.09)), ([], (0.06, 0.06)), ([effect], (math.nan, math.nan))):
+        assert length_beside_interval(effects, 0.06, interval) == ""
+    unknown = dataclasses.replace(effect, change=math.nan, other_change=math.nan)
+    assert length_beside_interval([unknown], 0.06, (0.06, 0.06)) == ""
 
 
 def test_the_correlation_length_of_a_measured_map_is_no_effect(tmp_path):

@@ -61,7 +61,8 @@ def test_an_effect_with_the_numbers_of_its_moment_is_stated_once():
         for load in (300.0, 600.0)
     ]
     named = [each.effect for each in largest_over_time(moments) if each.effect.kind == "compressibility"]
-    assert len(named) == 1 and len({e.what for m in moments for e in m.effects if e.kind}) == 2
+    whats = {each.what for one in moments for each in one.effects if each.kind == "compressibility"}
+    assert len(named) == 1 and len(whats) == 2
 
 
 def test_an_effect_that_is_not_estimated_is_that_of_the_highest_pressure():

@@ -76,6 +76,7 @@ from .largest_friction import (
     largest_of_oil,
     largest_sliding_friction,
 )
+from .length_in_words import length_beside_interval
 from .memo import (
     AttenuatedSummitsKey,
     BalanceKey,

@@ -8,14 +8,14 @@ of f: it holds that of the result by any model.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TypeVar
 
 import numpy as np
 
 from ...film import LineContact, flooded_inlet
 from ...oil import density_ratio
-from ...scene import Scene, has_generated_roughness, has_moving_roughness, why_gap_not_resolved
+from ...scene import LENGTH_KEYS, Scene, has_generated_roughness, has_moving_roughness, why_gap_not_resolved
 from .checks import peak_hertz_pressure
 from .guessed_friction import FrictionParts, Guess, guessed_parts, parts_together
 from .heat import TYPICAL
@@ -65,6 +65,18 @@ GIVE_ALPHA = (
 # This recommendation for a run in time, whose interval contains no such range.
 GIVE_ALPHA_IN_TIME = "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this change"
 
+# What to do about the correlation length of generated roughness.
+GIVE_LENGTH = (
+    "give a measured height map, or surface.correlation_length = [value, low, high], whose effect is solved and in the "
+    "interval"
+)
+
+# This recommendation for a run in time, whose interval contains no such range.
+GIVE_LENGTH_IN_TIME = "give a measured height map; the interval of f does not contain this change"
+
+# The `UnmodelledEffect.kind` of the correlation length.
+BY_LENGTH = "correlation_length"
+
 # Powers of the estimated s between which the s of a result lies, and 0: the built-in contact, by three models, has
 # powers of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on
 # asperities. A margin is added.
@@ -82,6 +94,7 @@ class UnmodelledEffect:
     ----------
     what : the effect, as text
     change : likely change of f, relative [-]; NaN where it is not known
+    other_change : the same of an effect that may go either way, the other way; None: it goes one way
     recommendation : what to do
     is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient: then the change is the largest one
         either way
@@ -93,21 +106,22 @@ class UnmodelledEffect:
     recommendation: str
     is_of_alpha: bool = False
     kind: str = ""
+    other_change: float | None = None
 
     @property
-    def changes(self) -> tuple[float]:
-        """The change of f."""
-        return (self.change,)
+    def changes(self) -> tuple[float, ...]:
+        """The change of f, and the other one if there is one."""
+        return (self.change,) if self.other_change is None else (self.change, self.other_change)
 
     @property
     def change_in_words(self) -> str:
         """The change of f as text."""
-        return at_most_in_words(self.change) if self.is_of_alpha else change_in_words(self.change)
+        return at_most_in_words(self.change) if self.is_of_alpha else change_in_words(*self.changes)
 
     @property
     def largest_change(self) -> float:
-        """The change of f without its sign; NaN where it is not known."""
-        return abs(float(self.change))
+        """The largest change of f without its sign; NaN where it is not known."""
+        return max(abs(float(change)) for change in self.changes)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,14 +209,15 @@ class _Point:
 
 @dataclass(frozen=True, kw_only=True)
 class _PossibleEffect:
-    """An effect, whose ``change`` of f depends on the result: None where it has none. The others are those of
-    `UnmodelledEffect`."""
+    """An effect, whose ``change`` of f depends on the result: None where it has none. So does ``other_change``, that
+    the other way. The others are those of `UnmodelledEffect`."""
 
     what: str
     change: Callable[[FrictionParts | None], float | None]
     recommendation: str
     is_of_alpha: bool = False
     kind: str = ""
+    other_change: Callable[[FrictionParts | None], float | None] = lambda result: None
 
     def at(self, result: FrictionParts | None) -> UnmodelledEffect | None:
         """Return the effect on a ``result``."""
@@ -212,6 +227,7 @@ class _PossibleEffect:
         return UnmodelledEffect(
             what=self.what,
             change=change,
+            other_change=self.other_change(result),
             recommendation=self.recommendation,
             is_of_alpha=self.is_of_alpha,
             kind=self.kind,
@@ -260,7 +276,8 @@ def expected_effects(
     results = list(_expected_results(point.guess))
     effects = []
     for possible in _possible_effects(point, point.guess.parts.of_all):
-        changes = [change for change in map(possible.change, results) if change is not None]
+        ways = (possible.change, possible.other_change)
+        changes = [change for way in ways for change in map(way, results) if change is not None]
         if changes:
             effects.append(
                 ExpectedEffect(
@@ -406,25 +423,25 @@ def _correlation_length(point: _Point) -> _PossibleEffect | None:
     scene = point.scene
     if point.guess.sq == 0 or not has_generated_roughness(scene):
         return None
+    if not point.is_in_time and any(name in LENGTH_KEYS for name, *_ in point.with_ranges.ranges):
+        return None  # it is in the interval
     of_rubbing = point.guess.of_rubbing
     (least, most) = MIXED
     follows_roughness = point.includes_motion and has_moving_roughness(scene) and point.is_thin  # of the film
 
-    def unknown_if_mixed(result: FrictionParts | None) -> float | None:
+    def change_if_mixed(times: float, result: FrictionParts | None) -> float | None:
         of_asperities = point.parts(result).of_asperities
-        if follows_roughness:
-            is_mixed = of_asperities < most * of_rubbing or not of_rubbing
-        else:
-            is_mixed = least * of_rubbing < of_asperities < most * of_rubbing
-        return math.nan if is_mixed else None
+        if least * of_rubbing < of_asperities < most * of_rubbing:
+            return point.guess.change_by_length(times, result)
+        is_of_film = of_asperities <= least * of_rubbing
+        return math.nan if follows_roughness and is_of_film else None
 
     return _PossibleEffect(
         what="half or twice the correlation length of the roughness, which no drawing states",
-        change=unknown_if_mixed,
-        recommendation=(
-            "give a measured height map, or vary surface.correlation_length in a study; under heavy loads it may "
-            "change f by more than its interval"
-        ),
+        change=partial(change_if_mixed, 0.5),
+        other_change=partial(change_if_mixed, 2.0),
+        recommendation=GIVE_LENGTH_IN_TIME if point.is_in_time else GIVE_LENGTH,
+        kind=BY_LENGTH,
     )
 
 

@@ -1,7 +1,7 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
 ``... numbers [--workers N] [--seconds S] [--out FOLDER]``: solve the cases that are missing on long cells by today's
 model. ``... fit``: write calibration.toml of lubfric anew. ``... pairs COUNT``: extend the table of pairs of similar
-contacts."""
+contacts; ``... lengths COUNT``: the table of contacts with other correlation lengths."""
 
 import math
 import time
@@ -11,14 +11,14 @@ from pathlib import Path
 from .. import extending
 
 # isort: split
-from . import fit, pairs
+from . import fit, lengths, pairs
 from .table import TABLES, extend, to_repeat
 
 
 def main() -> None:
     """Run the command."""
     p = extending.parser("verification.campaigns.calibration", __doc__)
-    p.add_argument("motion", choices=("rest", "rolling", "numbers", "fit", "pairs"))
+    p.add_argument("motion", choices=("rest", "rolling", "numbers", "fit", "pairs", "lengths"))
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--repeat", type=int, default=0, help="solve the known cases on the map of this repeat (1, 2, ...)")
     p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
@@ -42,6 +42,11 @@ def main() -> None:
                 print(
                     f"{motion} {row['number']} {row['key']} {row['factor']} {row['seconds']:.1f} s: {end}", flush=True
                 )
+        return
+    if options.motion == "lengths":
+        for motion in fit.MOTIONS:
+            for row in lengths.extend(motion, options.count, options.budget):
+                print(f"{motion} {row['seed']} {row['factor']} {row['seconds']:.1f} s: {row['f']:.4f}", flush=True)
         return
     seeds: Sequence[int] = range(options.first, options.count)
     if options.repeat:
