@@ -164,21 +164,14 @@ def paced() -> Callable[..., bool]:
 
 
 def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
-    """Return what reports how far a point is, and the time left for this part of it: on the line of progress of a
-    terminal, else in a line every ``interval`` [s] at most."""
-    begun = time.monotonic()
-    last = begun
+    """Return what reports how far a point is: on the line of progress of the command, else in a line every ``interval``
+    [s] at most."""
+    last = time.monotonic()
 
     def report(what: str, done: int, total: int) -> None:
-        nonlocal begun, last
+        nonlocal last
         now = time.monotonic()
-        if done == 1:
-            begun = now
-        if done < 2:
-            return
-        left = (now - begun) / (done - 1) * (total - done)
-        time_left = f", {left:.0f} s left of this part" if left >= 1 else ""
-        words = f"{what}: step {done} of {total}{time_left}"
+        words = f"now {what}: step {done} of {total}"
         if not state_part(words) and now - last >= interval:
             last = now
             say(f"      {words}")
@@ -418,7 +411,7 @@ class CommandStart(NamedTuple):
         """Return the elapsed and the processor time since then, as text: the latter is what a command estimates."""
         of_earlier = f", {self.earlier:.1f} s of it before this call" if self.earlier else ""
         spent = f"{self.processor_seconds:.1f} s of processor time, all processes together"
-        return f"{self.seconds:.1f} s ({spent}{of_earlier})"
+        return f"{self.seconds:.1f} s of wall-clock time ({spent}{of_earlier})"
 
 
 class RunFolder:

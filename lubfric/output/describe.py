@@ -4,7 +4,7 @@ import math
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -140,6 +140,7 @@ class SceneEstimate:
         "validity"
     cost : the time that it will take, as text; "" where it is not known
     seconds : processor time of the solves and, without a run in time, of measured maps before them
+    point_seconds : that of each point by its speed [m/s], or by its slide-roll ratio; {} of a run in time
     command_seconds : processor time of ``lubfric run``, with its start, pictures and files
     table : of some speeds, their headings first: expected film, whether it separates the surfaces, what the sample
         costs
@@ -160,6 +161,7 @@ class SceneEstimate:
     effects: tuple[ExpectedEffect, ...]
     effects_over_time: tuple[EffectOverTime, ...] = ()
     run: RunEstimate | None = None
+    point_seconds: Mapping[float, float] = field(default_factory=dict)
 
 
 def rolling_in_words(point: FrictionResult) -> str:
@@ -251,6 +253,7 @@ def estimate_scene(
         scene_speed = max(speeds)
     model, seconds = _model(work, speeds, ratios, measured)
     seconds += _seconds_of_files(scene, sample) if seconds else 0.0
+    point_seconds = _seconds_of_each(work, speeds, ratios, measured, seconds) if scene.transient is None else {}
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved and not len(ratios):
         beside += work.at(speeds[index_of_nearest(speeds, scene_speed, are_speeds=True)]).fine_fields_seconds
@@ -292,6 +295,7 @@ def estimate_scene(
         effects=effects,
         effects_over_time=over_time,
         run=run,
+        point_seconds=point_seconds,
     )
 
 
@@ -503,6 +507,20 @@ def _model(
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, seconds_of_points(forecasts, many)
+
+
+def _seconds_of_each(
+    work: WorkOfPoints,
+    speeds: list[float],
+    ratios: Sequence[float],
+    measured: Mapping[str, MeasuredTime],
+    total: float,
+) -> dict[float, float]:
+    """Return the processor time [s] of each point, which are ``total`` together, by its speed [m/s]; by its slide-roll
+    ratio, each as long as the others, where there are ``ratios``."""
+    each = {ratio: 1.0 for ratio in ratios} or {speed: work.at(abs(speed), measured).seconds for speed in speeds}
+    in_all = sum(each.values())
+    return {value: total * seconds / in_all for value, seconds in each.items()} if in_all else each
 
 
 def _in_auto(scene: Scene, forecasts: Sequence[PointWorkEstimate]) -> str:

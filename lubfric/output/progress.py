@@ -153,11 +153,10 @@ class ProgressLine:
 
 
 def state_part(text: str) -> bool:
-    """Put ``text``, how far a point is, on the line of the command that is running; return whether a terminal shows
-    it."""
+    """Put ``text``, how far a point is, on the line of the command that is running; return whether there is one."""
     if _active is not None:
         _active.part = text
-    return _active is not None and _active.draws
+    return _active is not None
 
 
 def clear_active() -> None:

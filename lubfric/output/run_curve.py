@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from argparse import Namespace
 from collections.abc import Callable
 from contextlib import suppress
@@ -43,6 +44,7 @@ from .plot_again import measured_of
 from .progress import ProgressLine
 from .run_files import names_of_run
 from .swept_values import in_percent, parse_ratios, parse_speeds
+from .time_left import TimeLeft
 
 WORTH = 8  # speeds from which a second process gains more than it costs; a choice: a process takes a second to start
 
@@ -84,22 +86,24 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
 
     workers = _workers(arguments, scene, speeds)
     speeds_apart = _are_apart(speeds, workers)
-    with (
-        ProgressLine("speeds") as shown,
-        studies.pool(workers) as executor,
-        parts_on(None if speeds_apart else executor),
-    ):
+    with studies.pool(workers) as executor, parts_on(None if speeds_apart else executor):
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, kept_by="stribeck", speeds=speeds)
-        with begun as (folder, prepared, estimate), progress_to(moment_reports()):
+        with (
+            begun as (folder, prepared, estimate),
+            ProgressLine("speeds", _time_left(estimate, workers, are_apart=speeds_apart)) as shown,
+            progress_to(moment_reports()),
+        ):
             requested = () if speeds == studies.AUTO_SPEEDS else speeds
             known = studies.count_of_kept(folder.unfinished, prepared, requested, chosen)
             folder.continues = known > 0
             _say_known(known, len(requested), arguments.out)
+            shown.update(0, len(requested))
 
             def on_point(*point: Any) -> None:
                 if not ended:
                     studies.keep_request(folder.unfinished, prepared, requested)
                 ended.append(point)
+                _end_of_point(shown, point[2], is_known=len(ended) <= known)
                 shown.update(point[0], point[1])
                 progress(*point)
 
@@ -116,6 +120,24 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
             folder.needed_by = "" if studies.is_all_solved(folder.unfinished) else RUN_WITH_MORE_POINTS
             _write(folder, prepared, curve, arguments, estimate, chosen, measured, known)
     _raise_if_failed(curve)
+
+
+def _time_left(estimate: SceneEstimate, workers: int, *, are_apart: bool) -> TimeLeft:
+    """Return the time left of a curve by its ``estimate``, whose points are solved by so many ``workers``;
+    ``are_apart``: each point by one of them, else all of them share one point, and report their processor time late."""
+    if workers > 1 and not are_apart:
+        return TimeLeft(estimate.point_seconds, spent=time.monotonic)
+    return TimeLeft(estimate.point_seconds, workers)
+
+
+def _end_of_point(shown: ProgressLine, value: float, *, is_known: bool) -> None:
+    """Report to the time left on the line ``shown`` that the point at this ``value``, a speed or a ratio, ended; the
+    next one where the curve chose the value. ``is_known``: it was solved before."""
+    left = shown.time_left
+    if left is None or not left.expected:
+        return
+    point = value if value in left.expected else next(iter(left.expected))
+    (left.omit if is_known else left.end)(point)
 
 
 def _kept_in_words(count: int, total: int | str, out: Path) -> str:
@@ -177,16 +199,22 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
 
     names = names_of_run("traction")
     begun = run_begun(scene, arguments, names, kept, ratios, "traction", kept_by="traction", ratios=ratios)
-    with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate), progress_to(moment_reports()):
+    with (
+        begun as (folder, prepared, estimate),
+        ProgressLine("ratios", _time_left(estimate, workers, are_apart=_are_apart(ratios, workers))) as shown,
+        progress_to(moment_reports()),
+    ):
         keys = studies.keys_of_ratios(prepared, ratios)
         known = studies.count_of_kept_ratios(folder.unfinished, prepared.scene.motion.entrainment_speed, keys)
         folder.continues = known > 0
         _say_known(known, len(ratios), arguments.out)
+        shown.update(0, len(ratios))
 
         def on_point(*point: Any) -> None:
             if not ended:
                 studies.keep_ratios(folder.unfinished, prepared.scene, keys)
             ended.append(point)
+            _end_of_point(shown, point[2], is_known=len(ended) <= known)
             shown.update(point[0], point[1])
             progress(*point)
 

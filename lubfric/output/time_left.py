@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from .._base.processor_time import processor_time
 from ..studies import in_words
@@ -13,6 +13,11 @@ from ..studies import in_words
 # Time for which a process is taken to do a second of work in a second [s], until twice as much has passed. A choice: a
 # smaller value makes the first estimates jump.
 USUAL_SECONDS = 5.0
+
+# Time over which the pace of the processor is measured, at least [s]; at most twice as much where the time left is
+# stated often. A choice: a mean over all of a command told 57 s as 33 s after other programs had begun; a smaller value
+# makes the time left jump.
+PACE_SECONDS = 30.0
 
 # Processor time [s] that a process has spent at least, for the rate at which it does. A choice: it divides.
 LEAST_WORK = 1e-3
@@ -29,13 +34,20 @@ POINTS_OF_PACE = 2.0
 LEFT_OF_LATE = 0.4
 
 
+class Reading(NamedTuple):
+    """The clock [s], and what was ``spent`` [s] until then (`TimeLeft`)."""
+
+    clock: float
+    spent: float
+
+
 class TimeLeft:
     """Use as ``left = TimeLeft(expected, processes)``, then ``left.end(point)`` when a point ends, and
     ``left.seconds``.
 
     ``expected``: the estimated processor seconds of each point, in the order in which they are solved; ``processes``:
     that solve them. What points take is the processor time of one process, whose ratio to the time that passes is
-    measured; of several it is the time that passes. The ratio of what the points that ended took to their estimates
+    measured over the last `PACE_SECONDS`; of several it is the time that passes. The ratio of what the points that ended took to their estimates
     corrects the estimates of the others; until `POINTS_OF_PACE` ended, one more counts that takes what is estimated,
     ``usual`` [s] long (None: as the mean of all).
     Those that are being solved raise it when they take more, and then need `LEFT_OF_LATE` of what they took, which
@@ -55,8 +67,8 @@ class TimeLeft:
         self.processes = processes
         self._clock = clock
         self._spent = spent if processes == 1 else clock
-        self._first_clock = clock()
-        self._first_spent = self._spent()
+        self._reading = Reading(clock(), self._spent())  # the last one
+        self._earlier_reading = self._reading  # from which on the pace is measured
         self._begun: dict[Any, float] = {}  # when each point began that is being solved [s], by `_spent`
         self._taken = 0.0  # s, of the points that ended
         self._estimated = 0.0  # s, of the same
@@ -121,9 +133,16 @@ class TimeLeft:
         left = max((sum(undone) + waiting) / self.processes, *undone, 0.0)
         if self.processes > 1:
             return left
-        passed = self._clock() - self._first_clock
+        return left * self._seconds_of_work(Reading(self._clock(), now))
+
+    def _seconds_of_work(self, now: Reading) -> float:
+        """Return the time that passes in a second of processor time, over the last `PACE_SECONDS` until ``now``."""
+        if now.clock - self._reading.clock >= PACE_SECONDS:
+            self._earlier_reading = self._reading
+            self._reading = now
+        passed = now.clock - self._earlier_reading.clock
         usual = _weight_of_usual(passed, USUAL_SECONDS)
-        return left * (passed + usual) / max(now - self._first_spent + usual, LEAST_WORK)
+        return (passed + usual) / max(now.spent - self._earlier_reading.spent + usual, LEAST_WORK)
 
     def in_words(self, more: float = 0.0) -> str:
         """Return the time left and ``more`` [s] as text to be appended; "" where nothing is left."""

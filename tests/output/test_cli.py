@@ -162,7 +162,8 @@ def test_the_scene_of_init_meets_its_tolerance_where_its_numerical_error_is_larg
     assert 0 < point.uncertainty.numerical <= lubfric.load_scene(tmp_path / "s.toml").numerics.tolerance
 
 
-def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypatch):
+def test_how_far_a_long_point_is_is_reported(capsys, monkeypatch):
+    """Without a line of progress, as of a fit."""
     from lubfric.output import commands
 
     clock = iter((0.0, 0.0, 1.0, 6.0, 7.0, 12.0))
@@ -172,8 +173,8 @@ def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypa
         report("moving roughness", done, 10)
     lines = capsys.readouterr().err.splitlines()
     assert [line.strip() for line in lines] == [
-        "moving roughness: step 3 of 10, 21 s left of this part",
-        "moving roughness: step 5 of 10, 15 s left of this part",
+        "now moving roughness: step 3 of 10",
+        "now moving roughness: step 5 of 10",
     ]
 
 

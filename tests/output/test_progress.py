@@ -8,7 +8,8 @@ import time
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
-from lubfric.output import ProgressLine, main, progress
+import lubfric
+from lubfric.output import ProgressLine, estimate_scene, main, progress
 from lubfric.output.commands import moment_reports, say
 from lubfric.output.progress import CLEAR_LINE
 from lubfric.output.slow_run import SlowRun
@@ -51,7 +52,7 @@ def test_a_terminal_sees_a_line_that_other_lines_replace(monkeypatch, quick):
     assert f"{CLEAR_LINE}a finished line\n" in text and text.endswith(CLEAR_LINE)
 
 
-def test_how_far_a_point_is_stands_on_the_line_of_a_terminal_alone(monkeypatch, quick):
+def test_how_far_a_point_is_stands_on_the_line_of_progress_alone(monkeypatch, quick):
     """A line each five seconds for each strip of a point is a page for every point of a study."""
     stream = Terminal()
     monkeypatch.setattr(sys, "stderr", stream)
@@ -59,7 +60,7 @@ def test_how_far_a_point_is_stands_on_the_line_of_a_terminal_alone(monkeypatch, 
         shown.update(1, 4)
         report = moment_reports(0.0)
         report("moving roughness", 2, 10)
-        assert shown.text.endswith("; moving roughness: step 2 of 10")
+        assert shown.text.endswith("; now moving roughness: step 2 of 10")
         shown.update(2, 4)
         assert "moving" not in shown.text
     assert "\n" not in stream.getvalue()
@@ -109,6 +110,25 @@ def test_a_file_gets_no_progress(monkeypatch, quick, tmp_path):
         assert ("\033" in stream.getvalue() or "\r" in stream.getvalue()) == (name == "terminal")
         tables.append([line.split(",")[1:4] for line in (out / "stribeck.csv").read_text().splitlines()])
     assert tables[0] == tables[1]
+
+
+@pytest.mark.parametrize("over", [["--speeds", "0.1,0.2,0.3"], ["--ratios", "0.5,1,2"]])
+def test_a_run_states_the_time_left_of_all_its_points(over, monkeypatch, tmp_path, capsys):
+    """On a file as well, from before the first of them ends."""
+    monkeypatch.setattr(progress, "REFRESH", 1e-3)
+    monkeypatch.setattr(progress, "SILENCE", 1e-3)
+    (tmp_path / "s.toml").write_text(BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\n" + SMALL_PATCH)
+    out = ["--out", str(tmp_path / "o"), "--workers", "1"]
+    assert main(["run", str(tmp_path / "s.toml"), *over, *out]) == 0
+    assert re.search(r"^0 of 3 (speeds|ratios), .* s passed, .* s left$", capsys.readouterr().err, re.M)
+
+
+@pytest.mark.parametrize("over", [{"speeds": [0.1, 0.2, 0.3]}, {"speeds": [], "ratios": [0.5, 1.0]}])
+def test_the_points_of_a_curve_take_the_time_of_all(over):
+    prepared = lubfric.prepare(lubfric.load_scene("paper"))
+    estimate = estimate_scene(prepared.scene, prepared.sample, prepared.surface, **over)
+    assert list(estimate.point_seconds) == over.get("ratios", over["speeds"])
+    assert sum(estimate.point_seconds.values()) == pytest.approx(estimate.seconds) and estimate.seconds > 0
 
 
 def test_a_bar_of_tqdm_takes_its_place_where_it_is_installed(monkeypatch):

@@ -57,6 +57,21 @@ def test_the_time_left_falls_inside_a_point_and_grows_on_a_slow_machine():
     assert seconds[-1][1] > 1.5 * (40.0 - 9.0)  # 9 s of work in 18 s
 
 
+def test_other_programs_that_begin_slow_the_time_left_within_a_minute():
+    """A core does half of its work in the last of three points, each as long as estimated."""
+    machine = Machine()
+    left = machine.left(dict.fromkeys("abc", 100.0))
+    for point in "ab":
+        for _ in range(10):
+            machine.run(10.0)
+            assert left.seconds == pytest.approx(300.0 - machine.work + 7.0)
+        left.end(point)
+    for _ in range(7):
+        machine.run(10.0, rate=0.5)
+        shown = left.seconds
+    assert shown == pytest.approx(2 * (100.0 - 35.0))
+
+
 def test_the_time_left_of_a_run_in_time_follows_the_expected_course_of_its_steps():
     """Four fifths of the steps are around a reversal, between two outputs. A run that takes twice its estimate: the
     time left grew to 2.4 times as much before the first output."""

@@ -546,7 +546,7 @@ def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> t
     rows = []
     for number, moment in enumerate(islice(passing, 1, 1 + again.discarded + again.counted), 1):
         rows.append(_row(moment))
-        report_progress("moving roughness, continued", number, again.discarded + again.counted)
+        report_progress("moving roughness at an end of an input range", number, again.discarded + again.counted)
     return _mean(rows[-again.counted :], moment.result), sum(row["work"] for row in rows)
 
 
