@@ -110,6 +110,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "SampleSolution",
         "SharedWork",
         "WorkEstimate",
+        "time_at",
         "with_boundary_friction_at",
         "prepared_with",
         "models_cheaper_than",

@@ -14,6 +14,7 @@ from ..models import (
     WorkEstimate,
     models_that_may_answer,
     models_up_to,
+    time_at,
 )
 from ..models.shared import (
     ExpectedViolations,
@@ -28,7 +29,7 @@ from ..surface import Surface
 from .length_ranges import MODEL_OF_ENDS, solves_of_lengths
 
 # What is known where no time of strips is measured. By definition.
-NOT_MEASURED: Mapping[str, MeasuredTime] = MappingProxyType({})
+NOT_MEASURED: Mapping[str, Sequence[MeasuredTime]] = MappingProxyType({})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,9 +77,9 @@ class WorkOfPoints:
         self.surface = surface
         self._of_models: dict[float, list[WorkEstimate]] = {}
 
-    def at(self, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED) -> PointWorkEstimate:
-        """Return what a point at ``speed`` [m/s] will take; ``measured``: by the name of a model what its first steps
-        say of the time of its strips."""
+    def at(self, speed: float, measured: Mapping[str, Sequence[MeasuredTime]] = NOT_MEASURED) -> PointWorkEstimate:
+        """Return what a point at ``speed`` [m/s] will take; ``measured``: by the name of a model what its first steps,
+        at some speeds, say of the time of its strips."""
         if speed not in self._of_models:
             expected: list[WorkEstimate] = []
             for model in models_up_to(AUTO):
@@ -86,14 +87,18 @@ class WorkOfPoints:
                 expected.append(model.estimate_work(self.scene, self.sample, self.surface, speed, before))
             self._of_models[speed] = expected
         estimates = [
-            expected.as_measured(measured[model.name]) if model.name in measured else expected
+            expected.as_measured(time_at(measured[model.name], speed)) if model.name in measured else expected
             for model, expected in zip(models_up_to(AUTO), self._of_models[speed])
         ]
         return _estimate_of_point(self.scene, self.sample, speed, estimates)
 
 
 def estimated_work_of_point(
-    scene: Scene, sample: Sample, surface: Surface, speed: float, measured: Mapping[str, MeasuredTime] = NOT_MEASURED
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speed: float,
+    measured: Mapping[str, Sequence[MeasuredTime]] = NOT_MEASURED,
 ) -> PointWorkEstimate:
     """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; other arguments as of
     `WorkOfPoints`."""

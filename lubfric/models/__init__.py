@@ -22,4 +22,4 @@ from .registry import (
     title_of,
     title_to_quote,
 )
-from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, MeasuredTime, SharedWork, WorkEstimate
+from .work_estimate import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, MeasuredTime, SharedWork, WorkEstimate, time_at

@@ -1,7 +1,10 @@
 """What a model will take at one operating point, estimated before anything is solved."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 # Whether asperities touch under an expected film, in words (`WorkEstimate.asperities`).
 ALL_TOUCH = "touching"
@@ -86,6 +89,7 @@ class MeasuredTime:
 
     Attributes
     ----------
+    speed : of entrainment [m/s], not 0
     over_expected : processor time of the strip over that of `WorkEstimate`
     steps : number of steps in time that were measured
     seconds : processor time [s] of the measurement
@@ -93,7 +97,21 @@ class MeasuredTime:
         does
     """
 
+    speed: float
     over_expected: float
     steps: int
     seconds: float
     most_strip_seconds: float = math.inf
+
+
+def time_at(measured: Sequence[MeasuredTime], speed: float) -> MeasuredTime:
+    """Return what the times that are ``measured``, at least one, say of a strip at ``speed`` [m/s]: that at the nearest
+    speed, with a ratio to the expected time whose logarithm is linear in that of the speed between two of them."""
+    if speed == 0:
+        return measured[0]
+    ordered = sorted(measured, key=lambda time: abs(time.speed))
+    log_speeds = np.log([abs(time.speed) for time in ordered])
+    log_ratios = np.log([time.over_expected for time in ordered])
+    log_speed = math.log(abs(speed))
+    nearest = ordered[int(np.argmin(np.abs(log_speeds - log_speed)))]
+    return replace(nearest, over_expected=float(np.exp(np.interp(log_speed, log_speeds, log_ratios))))

@@ -87,6 +87,11 @@ TABLE_SPEEDS = 6
 # one that takes as long as the answer.
 MEASURED_FROM = 3.0
 
+# Ratio of two speeds [-] from which on the time is measured at both. A choice: of contacts with moving roughness at a
+# speed and at a tenth of it (verification/campaigns/rolling_work) the logarithms of the measured work over the expected
+# one correlate by 0.5 alone.
+NEAR_SPEEDS = 3.0
+
 # How well a time is known that is measured on the first steps of a strip. Measured: 8 of 11 runs of the campaign of
 # estimates from number 20000 on (all within 3, five are in the table); the strips and moments that the sample needs are
 # left open.
@@ -306,15 +311,18 @@ def _seconds_of_files(scene: Scene, sample: Sample) -> float:
 
 
 def _how_well_known(
-    work: WorkOfPoints, speeds: list[float], ratios: Sequence[float], measured: Mapping[str, MeasuredTime]
+    work: WorkOfPoints, speeds: list[float], ratios: Sequence[float], measured: Mapping[str, Sequence[MeasuredTime]]
 ) -> str:
     """Return how well the processor time is known, as text; ``measured``: as of `WorkOfPoints.at`, the others as of
     `estimate_scene`."""
     if not measured and not len(ratios) and _slow_points(work, speeds):
         return f"{WITHIN_WORDS}; 'lubfric info' measures it on the first steps"
     within = WITHIN_WORDS
-    for time in measured.values():
-        within = f"{WITHIN_MEASURED}; measured on {time.steps} steps in time of a strip, in {in_words(time.seconds)}"
+    for times in measured.values():
+        steps = sum(time.steps for time in times)
+        places = f"a strip at {' and '.join(f'{time.speed:.3g}' for time in times)} m/s"
+        seconds = sum(time.seconds for time in times)
+        within = f"{WITHIN_MEASURED}; measured on {steps} steps in time of {places}, in {in_words(seconds)}"
     return within
 
 
@@ -421,15 +429,20 @@ def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstim
     return [point for point in points if point.model.has_slow_strips and point.slow_strip_seconds > MEASURED_FROM]
 
 
-def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, MeasuredTime]:
-    """Return, by the name of its model, what the first steps in time of the point that takes the longest say of its
-    time; {}: no strip of moving roughness takes more than `MEASURED_FROM`, or none was solved."""
+def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, list[MeasuredTime]]:
+    """Return, by the name of its model, what the first steps in time of the slowest and the fastest point say of its
+    time, or those of the point that takes the longest where these are within `NEAR_SPEEDS`; {}: no strip of moving
+    roughness takes more than `MEASURED_FROM`, or none was solved."""
     slow = _slow_points(work, _speeds_of(work.scene, work.surface, speeds))
     if not slow:
         return {}
-    longest = max(slow, key=lambda point: point.seconds)
-    measured = longest.model.measure_time(prepare_on_sample(work.scene, work.sample), longest.speed)
-    return {} if measured is None else {longest.model.name: measured}
+    ends = [slow[0], slow[-1]]
+    if ends[1].speed < NEAR_SPEEDS * ends[0].speed or ends[0].model is not ends[1].model:
+        ends = [max(slow, key=lambda point: point.seconds)]
+    prepared = prepare_on_sample(work.scene, work.sample)
+    measured = [end.model.measure_time(prepared, end.speed) for end in ends]
+    times = [time for time in measured if time is not None]
+    return {ends[0].model.name: times} if times else {}
 
 
 def _expected_gaps(scene: Scene, sq: float, speed: float, ratios: Sequence[float]) -> list[str]:
@@ -472,7 +485,7 @@ def _model(
     work: WorkOfPoints,
     speeds: list[float],
     ratios: Sequence[float],
-    measured: Mapping[str, MeasuredTime],
+    measured: Mapping[str, Sequence[MeasuredTime]],
 ) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
     of them (`lubfric.estimate.friction`; 0: not known here). ``measured``: as of `WorkOfPoints.at`."""
@@ -513,7 +526,7 @@ def _seconds_of_each(
     work: WorkOfPoints,
     speeds: list[float],
     ratios: Sequence[float],
-    measured: Mapping[str, MeasuredTime],
+    measured: Mapping[str, Sequence[MeasuredTime]],
     total: float,
 ) -> dict[float, float]:
     """Return the processor time [s] of each point, which are ``total`` together, by its speed [m/s]; by its slide-roll
@@ -598,7 +611,7 @@ def _ends_of(speeds: list[float]) -> list[float]:
 
 
 def _speed_table(
-    work: WorkOfPoints, speeds: list[float], measured: Mapping[str, MeasuredTime] = NOT_MEASURED
+    work: WorkOfPoints, speeds: list[float], measured: Mapping[str, Sequence[MeasuredTime]] = NOT_MEASURED
 ) -> list[tuple[str, ...]]:
     """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
     the summits touch, and what the sample costs; of a run in time `_moment_table`. ``measured``: as of

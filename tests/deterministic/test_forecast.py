@@ -77,11 +77,11 @@ def test_what_info_measures_says_that_the_solve_ends(monkeypatch):
     at = (prepared.scene, prepared.sample, prepared.surface, SPEED)
     expected = estimated_work_of_point(*at)
     assert expected.model.name == "deterministic"
-    measured = SimpleNamespace(over_expected=2.0, steps=10, seconds=3.0)
+    measured = SimpleNamespace(speed=SPEED, over_expected=2.0, steps=10, seconds=3.0)
     limits = {2.1: "deterministic", 1.9: "quick"}
     for times, name in limits.items():
         time = MeasuredTime(**vars(measured), most_strip_seconds=times * expected.slow_strip_seconds)
-        point = estimated_work_of_point(*at, {"deterministic": time})
+        point = estimated_work_of_point(*at, {"deterministic": [time]})
         assert point.model.name == name
     assert point.seconds > 3.0 and point.slow_strips == 0
     found = DeterministicModel().measure_time(prepared, SPEED)

@@ -28,6 +28,10 @@ def needle(tmp_path):
     return file
 
 
+def measured_time(over_expected, speed=0.05):
+    return MeasuredTime(speed=speed, over_expected=over_expected, steps=10, seconds=1.0)
+
+
 def seconds_of(text):
     """The seconds that ``text`` states of its speeds."""
     return float(text.replace("\n        ", " ").partition("cost: about ")[2].partition(" s of processor")[0])
@@ -36,7 +40,7 @@ def seconds_of(text):
 def test_info_measures_the_first_steps_of_rolling(needle, capsys):
     assert main(["info", str(needle)]) == 0
     text = capsys.readouterr().out
-    assert "measured on 10 steps in time of a strip" in " ".join(text.split())
+    assert "measured on 10 steps in time of a strip at 0.05 m/s, in" in " ".join(text.split())
     assert 0 < seconds_of(text) < math.inf
 
 
@@ -56,16 +60,37 @@ def test_a_measured_time_moves_the_estimate_of_its_model_alone(needle):
     prepared = lubfric.prepare(lubfric.load_scene(needle))
     at = (prepared.scene, prepared.sample, prepared.surface, 0.05)
     expected = estimated_work_of_point(*at)
-    of_other = estimated_work_of_point(*at, {"paper": MeasuredTime(over_expected=1.0, steps=10, seconds=1.0)})
-    doubled = estimated_work_of_point(*at, {"deterministic": MeasuredTime(over_expected=2.0, steps=10, seconds=1.0)})
+    of_other = estimated_work_of_point(*at, {"paper": [measured_time(1.0)]})
+    doubled = estimated_work_of_point(*at, {"deterministic": [measured_time(2.0)]})
     assert of_other == expected
     assert doubled.slow_strip_seconds == pytest.approx(2 * expected.slow_strip_seconds)
     assert doubled.seconds - expected.seconds == pytest.approx(
         expected.slow_strips * expected.slow_strip_seconds, rel=0.5
     )
     limited = prepared.scene.with_(numerics={"max_work": 1.0})
-    far_longer = {"deterministic": MeasuredTime(over_expected=100.0, steps=10, seconds=1.0)}
+    far_longer = {"deterministic": [measured_time(100.0)]}
     assert estimated_work_of_point(limited, *at[1:], far_longer).seconds < 2.0
+
+
+def test_between_two_measured_speeds_the_time_follows_a_power_of_the_speed(needle):
+    """The ratio to the expected time is 0.4 at 0.05 m/s and 0.9 at 5 m/s, so 0.6 at their geometric mean."""
+    prepared = lubfric.prepare(lubfric.load_scene(needle))
+    times = {"deterministic": [measured_time(0.9, 5.0), measured_time(0.4)]}
+    for speed, ratio in {0.05: 0.4, 0.5: 0.6, 5.0: 0.9, 0.01: 0.4, 9.0: 0.9}.items():
+        at = (prepared.scene, prepared.sample, prepared.surface, speed)
+        expected = estimated_work_of_point(*at).slow_strip_seconds
+        assert estimated_work_of_point(*at, times).slow_strip_seconds == pytest.approx(ratio * expected)
+
+
+def test_info_measures_the_slowest_and_the_fastest_speed(needle, monkeypatch, capsys):
+    """One speed where they are near: the one that takes the longest."""
+    (slow,) = [type(model) for model in models_up_to("auto") if model.has_slow_strips]
+    speeds = []
+    monkeypatch.setattr(slow, "measure_time", lambda self, prepared, speed: speeds.append(speed) or measured_time(1.0))
+    assert main(["info", str(needle), "--speeds", "0.05,0.3,0.6"]) == 0
+    assert speeds == [0.05, 0.6] and "measured on 20 steps" in " ".join(capsys.readouterr().out.split())
+    assert main(["info", str(needle), "--speeds", "0.05,0.1"]) == 0
+    assert len(speeds) == 3 and speeds[-1] in (0.05, 0.1)
 
 
 def test_what_is_said_before_a_run_leads_to_what_is_measured(needle):
@@ -118,14 +143,14 @@ def test_info_makes_the_surface_and_the_estimate_of_each_speed_once(needle, monk
     monkeypatch.setattr(slow, "estimate_work", counted)
     monkeypatch.setattr(slow, "measure_time", lambda self, prepared, speed: measured.append(prepared.scene))
     described_scene(scene, measures=True)
-    assert made == [1] and measured == [scene]
+    assert made == [1] and measured == [scene, scene]
     assert sorted(estimated) == [0.05, 0.5, 2.0]
 
 
 def test_a_run_states_the_time_that_info_states(needle, monkeypatch, tmp_path, capsys):
     """One function gives both; nothing is solved here."""
     (slow,) = [type(model) for model in models_up_to("auto") if model.has_slow_strips]
-    measured = MeasuredTime(over_expected=0.4, steps=10, seconds=1.0)
+    measured = measured_time(0.4)
     monkeypatch.setattr(slow, "measure_time", lambda self, prepared, speed: measured)
     for model in models_up_to("auto"):
         monkeypatch.setattr(type(model), "solve", refuse)
@@ -134,7 +159,7 @@ def test_a_run_states_the_time_that_info_states(needle, monkeypatch, tmp_path, c
     in_info = " ".join(capsys.readouterr().out.split()).partition("cost: ")[2].partition(" for start")[0]
     assert main(["run", str(needle), *speeds, "--out", str(tmp_path / "out"), "--workers", "1"]) != 0
     in_run = " ".join(capsys.readouterr().err.split()).partition("estimate: ")[2].partition(" for start")[0]
-    assert "measured on 10 steps" in in_info and in_run == in_info
+    assert "measured on 20 steps" in in_info and in_run == in_info
 
 
 def refuse(*_args, **_named):

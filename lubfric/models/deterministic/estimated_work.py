@@ -447,6 +447,7 @@ def measured_time(prepared: Prepared, speed: float, measured: FirstSteps) -> Mea
     seconds = _seconds_in_motion(scene, sample, surface, speed, measured)
     is_ended = scene.numerics.model == AUTO
     return MeasuredTime(
+        speed=speed,
         over_expected=seconds / expected,
         steps=measured.steps,
         seconds=measured.seconds,
