@@ -30,7 +30,15 @@ from .first_steps import FirstSteps
 from .ladder import SOFT_CELL_ERROR
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .moving import film_half_width
-from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
+from .moving_strip import (
+    COURSE_ON_LONG_CELLS,
+    EXPECTED_COURSE,
+    OF_SHEAR,
+    PILOT_WAY,
+    ExpectedCourse,
+    effort_for,
+    moving_work,
+)
 from .pieces import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP
 from .problem import are_soft, reach, why_too_many
 from .shorter_cells import PIECES_SHARE
@@ -126,10 +134,15 @@ SECONDS_OF_PATCH = 0.05
 # same, most of all where the arrays are small.
 AT_REST_ON_LONG_CELLS = 0.9
 
-# What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time of ten runs
-# of ``verification.campaigns.estimates``. A travelled distance that follows from the expected sampling error of the
-# strip was tried: with it 55 % of the traction curves were within a factor of 2, with one distance for all 82 %.
+# What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time in ten runs
+# of ``verification.campaigns.estimates``. The distance that the roughness travels is that of `_expected_way`.
 COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
+
+# Part of a complete pass of the map that a strip of moving roughness travels, over the root of the number of strips
+# that the sampling error is expected to need (`_needed_strips`) [-]. Fitted to the first answers of 30 contacts of
+# verification.campaigns.moving_coverage: rms .40 of the logarithm of the distance, with one distance for all .49. Where
+# the distance was taken in proportion to the number itself, it was .47.
+PASSED_PART = 1.2
 
 # Processor time of moving roughness on many cells over its counted work [-]. Fitted with `SMALL_ARRAYS` to 33 strips of
 # 22 runs of verification.campaigns.estimates, by the deterministic and the quick model, on 280 to 14,400 cells: rms .15
@@ -423,18 +436,29 @@ def _seconds_in_motion(
     """Return the processor time [s] of a strip of moving roughness at ``speed`` [m/s]: expected, or as its first steps
     are ``measured``."""
     sample_coarsening = sample_coarsening_of(scene, sample)
+    rest = COURSE_OF_TIME.rest if measured is None else measured.rest
+    way = _expected_way(scene, sample, sq=surface.sq, speed=speed)
     work = moving_point_work(
         scene,
         sample,
         surface,
         speed,
         sample_coarsening=sample_coarsening,
-        course=COURSE_OF_TIME if measured is None else replace(COURSE_OF_TIME, rest=measured.rest),
+        course=replace(COURSE_OF_TIME, rest=rest, way=way),
         factor=None if measured is None else measured.factor,
     )
     if measured is not None:
         return measured.pace * work
     return _pace_in_motion(scene, sample, sq=surface.sq, speed=speed, sample_coarsening=sample_coarsening) * work
+
+
+def _expected_way(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return the distance that the roughness of ``sq`` [m] travels at ``speed`` [m/s] in the moments that count, in
+    half-widths of the film: at least `PILOT_WAY`, and at most a complete pass of the map."""
+    needed = _needed_strips(scene, sample, sq=sq, speed=speed)
+    part = min(1.0, PASSED_PART * math.sqrt(needed))
+    map_length = sample.cells.columns * sample.cells.spacing[0]
+    return max(PILOT_WAY, part * map_length / film_half_width(scene.line_contact(abs(speed))))
 
 
 def measured_time(prepared: Prepared, speed: float, measured: FirstSteps) -> MeasuredTime:
