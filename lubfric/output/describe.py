@@ -90,7 +90,7 @@ MEASURED_FROM = 3.0
 # Ratio of two speeds [-] from which on the time is measured at both. A choice: of contacts with moving roughness at a
 # speed and at a tenth of it (verification/campaigns/rolling_work) the logarithms of the measured work over the expected
 # one correlate by 0.5 alone.
-NEAR_SPEEDS = 3.0
+MEASURED_AT_ONE = 3.0
 
 # How well a time is known that is measured on the first steps of a strip. Measured: 8 of 11 runs of the campaign of
 # estimates from number 20000 on (all within 3, five are in the table); the strips and moments that the sample needs are
@@ -431,13 +431,13 @@ def _slow_points(work: WorkOfPoints, speeds: list[float]) -> list[PointWorkEstim
 
 def _measured_times(work: WorkOfPoints, speeds: Sequence[float] | str) -> dict[str, list[MeasuredTime]]:
     """Return, by the name of its model, what the first steps in time of the slowest and the fastest point say of its
-    time, or those of the point that takes the longest where these are within `NEAR_SPEEDS`; {}: no strip of moving
+    time, or those of the point that takes the longest where these are within `MEASURED_AT_ONE`; {}: no strip of moving
     roughness takes more than `MEASURED_FROM`, or none was solved."""
     slow = _slow_points(work, _speeds_of(work.scene, work.surface, speeds))
     if not slow:
         return {}
     ends = [slow[0], slow[-1]]
-    if ends[1].speed < NEAR_SPEEDS * ends[0].speed or ends[0].model is not ends[1].model:
+    if ends[1].speed < MEASURED_AT_ONE * ends[0].speed or ends[0].model is not ends[1].model:
         ends = [max(slow, key=lambda point: point.seconds)]
     prepared = prepare_on_sample(work.scene, work.sample)
     measured = [end.model.measure_time(prepared, end.speed) for end in ends]

@@ -9,6 +9,7 @@ import pytest
 import lubfric
 from lubfric.estimate import estimated_work_of_point
 from lubfric.models import MeasuredTime, models_up_to
+from lubfric.models.deterministic import expected_way
 from lubfric.output import described_scene, main
 
 NEEDLE = """
@@ -80,6 +81,20 @@ def test_between_two_measured_speeds_the_time_follows_a_power_of_the_speed(needl
         at = (prepared.scene, prepared.sample, prepared.surface, speed)
         expected = estimated_work_of_point(*at).slow_strip_seconds
         assert estimated_work_of_point(*at, times).slow_strip_seconds == pytest.approx(ratio * expected)
+
+
+def test_roughness_travels_further_for_a_smaller_sampling_error(needle):
+    """Twice as far for half of the error, between the distance at which the error is known first and a complete pass."""
+    scene = lubfric.load_scene(needle)
+    prepared = lubfric.prepare(scene)
+    (coarse, some, more, fine) = (
+        expected_way(
+            scene.with_(numerics={"sampling_tolerance": tolerance}), prepared.sample, sq=prepared.surface.sq, speed=0.05
+        )
+        for tolerance in (0.5, 0.04, 0.02, 0.001)
+    )
+    assert coarse == 1.5 < some and more == pytest.approx(2 * some) and more < fine
+    assert fine == pytest.approx(256e-6 / scene.bodies.half_width)
 
 
 def test_info_measures_the_slowest_and_the_fastest_speed(needle, monkeypatch, capsys):

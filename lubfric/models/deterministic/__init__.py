@@ -3,7 +3,7 @@
 from .answer import answer_of, violations_by_correction
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, changed_as_expected, film_exponent_of
 from .deterministic_model import DeterministicModel, DeterministicSolution
-from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
+from .estimated_work import expected_way, moving_point_work, work_of_fine_fields, work_on_long_cells
 from .expected_friction import expected_friction
 from .expected_steps_in_time import COEFFICIENTS, StepFacts
 from .flow import derivatives, mass_balance

@@ -135,7 +135,7 @@ SECONDS_OF_PATCH = 0.05
 AT_REST_ON_LONG_CELLS = 0.9
 
 # What is expected of a strip of moving roughness for its time. The strip at rest takes 2 to 9 steps in time in ten runs
-# of ``verification.campaigns.estimates``. The distance that the roughness travels is that of `_expected_way`.
+# of ``verification.campaigns.estimates``. The distance that the roughness travels is that of `expected_way`.
 COURSE_OF_TIME = replace(EXPECTED_COURSE, rest=4.0)
 
 # Part of a complete pass of the map that a strip of moving roughness travels, over the root of the number of strips
@@ -437,7 +437,7 @@ def _seconds_in_motion(
     are ``measured``."""
     sample_coarsening = sample_coarsening_of(scene, sample)
     rest = COURSE_OF_TIME.rest if measured is None else measured.rest
-    way = _expected_way(scene, sample, sq=surface.sq, speed=speed)
+    way = expected_way(scene, sample, sq=surface.sq, speed=speed)
     work = moving_point_work(
         scene,
         sample,
@@ -452,7 +452,7 @@ def _seconds_in_motion(
     return _pace_in_motion(scene, sample, sq=surface.sq, speed=speed, sample_coarsening=sample_coarsening) * work
 
 
-def _expected_way(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+def expected_way(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
     """Return the distance that the roughness of ``sq`` [m] travels at ``speed`` [m/s] in the moments that count, in
     half-widths of the film: at least `PILOT_WAY`, and at most a complete pass of the map."""
     needed = _needed_strips(scene, sample, sq=sq, speed=speed)

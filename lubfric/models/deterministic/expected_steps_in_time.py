@@ -12,17 +12,26 @@ from ..shared import peak_hertz_pressure
 from .moving_strip import FAST_ROUGHNESS, SLOW_ROUGHNESS, TIGHT, effort_for
 
 # ln of the work of a step over `work_of_step_in_time`, where all features are 0 [-]. Fitted.
-LOG_WORK = -0.802
+LOG_WORK = -0.873
 
 # Its changes with the features of `StepFacts` [-]. Fitted.
-BY_THICKENING = 0.268
-BY_RIDGES_ALONG = 0.124
-BY_PART_OF_CELL = 0.862
-BY_TIGHT_STEPS = 0.434
-BY_APART = 0.723
+BY_THICKENING = 0.27
+BY_RIDGES_ALONG = 0.128
+BY_PART_OF_CELL = 0.835
+BY_TIGHT_STEPS = 0.465
+BY_APART = 0.903
+BY_RIDGES_ACROSS = 0.265
 
 # These in the order of `StepFacts.features` [-]. By definition.
-COEFFICIENTS = (LOG_WORK, BY_THICKENING, BY_RIDGES_ALONG, BY_PART_OF_CELL, BY_TIGHT_STEPS, BY_APART)
+COEFFICIENTS = (
+    LOG_WORK,
+    BY_THICKENING,
+    BY_RIDGES_ALONG,
+    BY_PART_OF_CELL,
+    BY_TIGHT_STEPS,
+    BY_APART,
+    BY_RIDGES_ACROSS,
+)
 
 # The pressure-viscosity coefficient times Hertz pressure over Λ below which the work of a step changes with it no more
 # [-]: about the least in the contacts of the fit. Measured there.
@@ -76,7 +85,8 @@ class StepFacts:
         on_ridges = max(math.log(THIN_ON_RIDGES / self.lambda_ratio), 0.0) if self.lay < 1.0 else 0.0
         part_of_cell = abs(self.moved - round(self.moved))
         loose_apart = self.apart * (1.0 - self.tight)  # no trend where steps are tight
-        return 1.0, thickening, on_ridges, part_of_cell, self.tight, loose_apart
+        across = float(self.lay > 1.0)
+        return 1.0, thickening, on_ridges, part_of_cell, self.tight, loose_apart, across
 
     @property
     def factor(self) -> float:

@@ -55,9 +55,12 @@ WITHIN = (1.5, 2.0, 3.0)
 # Digits of a number in the table.
 DIGITS = 5
 
-# Cells: those of verification.campaigns.calibration, of whose contacts the number is one; those of the deterministic
-# model and long ones, on which it is a random run.
-CELLS = ("case", "long", "strip")
+# Cells: those of verification.campaigns.calibration, of whose contacts the number is one, at its speed and at `SLOWER`
+# times that; those of the deterministic model and long ones, on which it is a random run.
+CELLS = ("case", "slow", "long", "strip")
+
+# Speed of a slow contact over that of the same one of verification.campaigns.calibration [-]: its film is a fifth.
+SLOWER = 0.1
 
 # Numbers of the first contacts of calibration of each kind: usual ones, slight sliding, light ones, thin films.
 CASES = (0, 1000, 2000, 3000)
@@ -128,8 +131,8 @@ class ContactOnCells:
 
     def moving(self) -> MovingBodies:
         """Return its rough bodies on their cells."""
-        if self.cells == "case":
-            return self._case()
+        if self.cells in ("case", "slow"):
+            return self._case(SLOWER if self.cells == "slow" else 1.0)
         scene = drawn(FIRST + self.number * len(KINDS) + KINDS.index("rolling deterministic"), 0).scene
         if self.cells == "long" and self.number % 2:
             (low, high) = np.log(SLIGHT)
@@ -147,12 +150,15 @@ class ContactOnCells:
         effort = effort_of(scene, bodies, speed, map_coarsening)
         return MovingBodies(scene, bodies, speed, lengths, map_coarsening, effort, described)
 
-    def _case(self) -> MovingBodies:
+    def _case(self, slower: float) -> MovingBodies:
+        """Return those of the contact of calibration at its speed times ``slower``."""
         case = drawn_case("rolling", CASES[self.number % len(CASES)] + self.number // len(CASES))
+        speed = slower * case.speed
+        bodies = [body._replace(speed=slower * body.speed) for body in case.bodies]
         lengths = (case.facts["length_x"], case.facts["length_y"])
-        effort = effort_of(case.scene, case.bodies, case.speed)
+        effort = effort_of(case.scene, bodies, speed)
         described = {"slip": case.facts["slip"], "acf": case.facts["acf"], "map": case.facts["lay"]}
-        return MovingBodies(case.scene, case.bodies, case.speed, lengths, (1, 1), effort, described)
+        return MovingBodies(case.scene, bodies, speed, lengths, (1, 1), effort, described)
 
 
 def extend(
