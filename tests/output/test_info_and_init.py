@@ -48,7 +48,8 @@ def test_each_speed_states_what_it_takes_if_its_cells_have_to_be_shorter():
     ((strip, longest),) = re.findall(numbers, text)
     ((seconds, on_shorter),) = re.findall(r" (\d+) \((\d+) on shorter cells\)", text)
     assert float(on_shorter) - float(seconds) == pytest.approx(float(longest) - float(strip), abs=10.0)  # one digit
-    assert "120 s of counted work (60 to 120 s of processor time, by the machine), the quick model" in text
+    assert "the quick model replaces it where one strip takes above 120 s of work counted" in text
+    assert "(60 to 120 s of processor time on a free core;" in text
 
 
 def test_every_input_stands_with_its_unit():

@@ -107,8 +107,9 @@ class DeterministicModel(Model):
     def limit_of_work_in_auto(self) -> str:
         (least, most) = (f"{pace * MOST_WORK_OF_POINT:g}" for pace in USUAL_PACES)
         return (
-            f"above {MOST_WORK_OF_POINT:g} s of counted work ({least} to {most} s of processor time, by the machine), the "
-            "quick model replaces it"
+            f"the quick model replaces it where one strip takes above {MOST_WORK_OF_POINT:g} s of work counted from its "
+            f"cells and steps ({least} to {most} s of processor time on a free core; shorter cells and ends of input "
+            "ranges take more)"
         )
 
     def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
