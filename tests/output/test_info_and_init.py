@@ -44,7 +44,7 @@ def test_each_speed_states_what_it_takes_if_its_cells_have_to_be_shorter():
         contact={"shape": (128, 128), "spacing": 2.5e-6},
     )
     text = describe_scene(scene, [2.0])
-    numbers = r"takes about (\d+) s of processor time by the deterministic model, and (\d+) s if"
+    numbers = r"takes about (\S+) s of processor time by the deterministic model, and (\S+) s if"
     ((strip, longest),) = re.findall(numbers, text)
     ((seconds, on_shorter),) = re.findall(r" (\d+) \((\d+) on shorter cells\)", text)
     assert float(on_shorter) - float(seconds) == pytest.approx(float(longest) - float(strip), abs=10.0)  # one digit
