@@ -51,7 +51,7 @@ from .strip_on_two_grids import (
     shortened,
 )
 
-# Part of the points whose map is shorter than a piece that solve it as a whole on cells a quarter as long [-].
+# Where the map is shorter than a piece, this part of the points solves all of it again on cells a quarter as long [-].
 QUARTER_OF_SHORT_STRIP = 0.5
 
 # Change of f of a patch at rest from cells twice as long [-], of a cell along x as long as correlation length and Hertz
@@ -74,39 +74,40 @@ CHANGE_OF_FILM = 1.0
 # is exponential.
 CHANGE_IF_NOT_SMOOTH = 1.5
 
-# Estimated error of f by the cells over the last of some changes [-] (`error_by_cells`, `error_of_patch`): 0.3 to 3, by
-# the ratio of the last two. A choice between these.
+# Error of f by the cells that a solve is expected to estimate, over the last change of f from longer to shorter cells
+# [-] (`error_by_cells`, `error_of_patch`). It is 0.3 to 3, by the ratio of the last two changes. A choice between
+# these.
 ERROR_OVER_CHANGE = 1.5
 
-# Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more. It
-# follows from a quarter of the cells each time, 1/4 + 1/16 + ...
+# A strip or a piece is solved on longer cells first, whose work is this part of that on its own cells [-]. It follows
+# from a quarter of the cells each time, 1/4 + 1/16 + ...
 ON_LONGER_CELLS = 0.3
 
-# Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11
-# below and none of 14 above it.
+# Where the sampling error needs fewer strips than this [-], the first strip is enough. It was in 10 of 11 random points
+# below this number, and in none of 14 above it.
 ENOUGH_ALONE = 0.3
 
-# Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these
-# points.
+# Number of pieces that are solved on cells half as long where a point has more than one strip [-]. It was 1 to 7, with
+# a mean of 2.8, in 13 of these 14 points.
 PIECES_OF_MORE_STRIPS = 3.0
 
 # `PIECES_OF_MORE_STRIPS` where the heights are not smooth over a cell, and f scatters more [-]: 1 to 32, 5 in the
 # geometric mean of 8 points on exponential surfaces.
 PIECES_IF_NOT_SMOOTH = 5.0
 
-# Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9
-# of these points, and all others, solve one.
+# Number of these pieces where one strip is enough and the film is below `RUBBED_FILM`, so that shorter cells change f
+# little [-]. A piece was solved at 2 of 9 of these points, and at all others with one strip.
 PIECES_OF_RUBBED = 0.25
 
 # Film of the smooth contact over Sq below which f is nearly f_b [-]. A choice: it moves estimates alone.
 RUBBED_FILM = 0.25
 
-# `RUBBED_FILM` of a short strip, all of which is solved on shorter cells [-]: neither of two random points below it
-# (.05, .07), and one above it (.13). Chosen between them.
+# The same limit for a short strip, all of which is solved on shorter cells [-]. Of three random points those below it
+# (.05 and .07) solved no shorter cells, and that above it (.13) did. A choice between them.
 RUBBED_FILM_OF_SHORT_STRIP = 0.1
 
-# Newton steps of the second solve of a strip, at a load 3 % larger, over those of a strip whose neighbour is solved
-# [-].
+# A strip is solved a second time at a load 3 % larger. This solve takes this part of the Newton steps of a strip that
+# starts from a solved one nearby [-].
 OF_SLOPE = 0.5
 
 # Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].
@@ -115,11 +116,11 @@ LAST_LEVEL_OF_ONE_STRIP = 0.2
 # Part of the points that solve a piece on cells a quarter as long, where more strips are solved [-].
 LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
-# This part where the heights are not smooth over a cell, for any number of strips [-]: 6 of 7 random points on
-# exponential surfaces.
+# The same part, for any number of strips, where the heights are not smooth over a cell [-]. It was 6 of 7 random points
+# on exponential surfaces.
 LAST_LEVEL_IF_NOT_SMOOTH = 0.85
 
-# Part of these that solve it on still shorter cells [-]: 3 of these 6.
+# Part of these points that go on to still shorter cells [-]. It was 3 of these 6.
 SHORTER_IF_NOT_SMOOTH = 0.5
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of
@@ -149,8 +150,8 @@ PASSED_PART = 1.2
 # of the logarithm, 1.5 at most.
 IN_MOTION = 0.57
 
-# Cells whose work in a Newton step takes as long as the calls of that step, which the counted work does not have [-].
-# Fitted.
+# A Newton step on this number of cells spends as long in the calls of numpy, which the counted work omits, as on its
+# cells [-]. Fitted.
 SMALL_ARRAYS = 2250.0
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq
@@ -164,7 +165,7 @@ MIXED_FILMS = (0.3, 1.7)
 # `HALVED_WORK`, with the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
 MAY_BE_HALVED = 1.2
 
-# Scatter of the difference between the models over that of f [-].
+# Scatter over the strips of the difference in f between the two models, over the scatter of f itself [-].
 UNLIKE = 0.65
 
 # Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_needed_strips`)

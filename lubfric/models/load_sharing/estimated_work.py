@@ -23,11 +23,12 @@ from .error_of_eq8 import load_sharing_error
 # `python -m verification.campaigns.estimates`.
 BALANCED_FILM = 3e-3
 
-# Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there.
+# Processor time [s] of each cell of the strips in one solve of their contact. It was .5 to 1.5e-7 there.
 CELL_SECONDS = 1.0e-7
 
-# Factor on that of strips and pieces, less one, over the flattening of the bodies in Sq and the part of the gap that no
-# film fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
+# Where most of a wide Hertz strip touches, a contact takes more iterations. The time of a cell grows by this factor
+# times the flattening of the bodies in Sq and the part of the gap that no film fills [-]. It was 7e-7 s at 36 Sq, and
+# 2e-7 s at 6 Sq.
 TIMES_BY_FLATTENING = 0.17
 
 # `TIMES_BY_FLATTENING` where the heights are not smooth over a cell [-]. Fitted with `ROUGH_CELLS_OF_LENGTH` to 77
@@ -41,12 +42,12 @@ PIECE_SECONDS = 1.5e-7
 # Processor time [s] of a cell of the map of a piece on native cells, which is generated: .7 to 1.8e-7 there.
 GENERATED_SECONDS = 1.1e-7
 
-# Films and contacts of the balance of a point that starts from a reference point, and of those of its response: 3 to 9
-# there.
+# Number of films and contacts that the load balance of a point solves, with those of its response, where it starts
+# from a reference point. It was 3 to 9 there.
 SOLVES = 6
 
-# Films and contacts of the balance on more strips, which start from fewer: 8 to 10 there, and half of the points that
-# are expected to need them do not.
+# The same number for the balance on more strips, which starts from that on fewer. It was 8 to 10 there, but half of the
+# points that are expected to need more strips do not.
 SOLVES_ON_MORE = 5
 
 # Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
@@ -59,8 +60,8 @@ SOLVES_AT_END = 2
 # Sizes of cells on which a piece is solved, at least. It follows from `cell_effect`: one change of f needs two.
 FEWEST_CELLS = 2
 
-# Points, of all, that solve pieces at a load of their own, because the reference point is too far from it: 25 of 55
-# there.
+# Part of the points that solve pieces at their own load, because the reference point is too far away [-]. It was 25 of
+# 55 there.
 OWN_PIECES = 0.5
 
 # Processor time [s] of the contact on a map that is solved whole, however small.
@@ -92,8 +93,8 @@ ROUGH_BY_FLATTENING = 0.16
 HALVINGS_SPREAD = 0.98
 MOST_HALVINGS = 3
 
-# Part of the gap that the film of the whole load fills, between which that happens: at half of these points there, and
-# at none of the others.
+# Cells are halved where the film of the whole load fills a part of the gap between these two [-]: at half of the points
+# there, and at none outside.
 SHARED_IF_ROUGH = (0.1, 0.93)
 
 # Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones
