@@ -169,7 +169,8 @@ class Quantities(Generic[T]):
     central_film: T = quantity(
         *("m", "central separation", "h_c"),
         error="film",
-        note="film at the centre under the load F_H: the central film thickness where F_C = 0; NaN at U = 0",
+        note="mean gap of the rough surfaces at x = 0: no film thickness where asperities touch; by load sharing the "
+        "smooth film at x = 0 under the load F_H; NaN at U = 0",
     )
     mean_gap: T = quantity(
         "m",
@@ -181,7 +182,7 @@ class Quantities(Generic[T]):
     film_to_roughness_ratio: T = quantity(
         *("-", "central separation over Sq", "h_c/Sq"),
         error="film",
-        note="lambda ratio of the solved film where F_C = 0",
+        note="not the lambda ratio, which has the full-load film: larger where asperities hold the gap open",
         is_left_by_cells=True,
     )
     inlet_film_factor: T = quantity(

@@ -114,9 +114,14 @@ class Oil(Shown):
         returned as given."""
         if self.alpha is not None:
             return Estimate(value=self.alpha, low=self.alpha, high=self.alpha, source="the scene")
-        if self.measured is not None and self.estimate is None:
+        if self.measured is not None and self.is_coefficient_measured:
             return self.measured.at(checked_temperature(temperature))
         return self._estimated(self.estimate or ("so-klaus" if self.base == "mineral" else "gold"), temperature)
+
+    @property
+    def is_coefficient_measured(self) -> bool:
+        """Whether the pressure-viscosity coefficient is that of measurements of this oil."""
+        return self.alpha is None and self.measured is not None and self.estimate is None
 
     def other_estimate(self, temperature: float) -> Estimate | None:
         """Return alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is

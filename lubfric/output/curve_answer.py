@@ -16,10 +16,8 @@ from ..units import plain_number, with_interval
 from .budget_bars import names_of_inputs
 from .describe import is_among, rolling_in_words
 from .operating_point import operating_point_not_solved, operating_point_of, place_on_curve
+from .regime import FULL_FILM_PART, regime_in_words
 
-# Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A
-# convention.
-FULL_FILM_PART = 0.01
 # Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
 MOST_STEP = 10.0
 # Factor on the speed, of which the change of f is stated. A choice: any other is as good.
@@ -58,6 +56,8 @@ def curve_answer(scene: Scene, curve: CurveResult, point: FrictionResult, place:
         sentences.append(f"{missing} The answer is for the nearest solved one.")
     if others := point.uncertainty.without_sampling_in_words:
         sentences.append(WITHOUT_SAMPLING.format(others))
+    share = point.contact_load / (point.contact_load + point.film_load)
+    sentences += regime_in_words(share, point.lambda_ratio)
     sentences += _inputs_in_interval(point)
     if isinstance(curve, TractionResult) or np.nanmin(curve["coefficient"]) < 0:
         sentences.append(SIGN_OF_F)
@@ -71,18 +71,17 @@ def curve_answer(scene: Scene, curve: CurveResult, point: FrictionResult, place:
         sq = point.full_load_film / point.lambda_ratio if point.lambda_ratio > 0 else math.nan
         over = f" over a Sq of {plain_number(sq, 'm')}" if math.isfinite(sq) else ""
         sentences[-1] += (
-            f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio "
-            f"of {point.lambda_ratio:.3g}{over}."
+            f" The film thickness is {plain_number(point.full_load_film, 'm')} (full-load film by closed forms), a lambda "
+            f"ratio of {point.lambda_ratio:.3g}{over}."
         )
         if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
             sentences[-1] += (
                 f" The film carries the load, and the solved film is {plain_number(point.central_film, 'm')} thick at "
                 f"the centre, {point.film_to_roughness_ratio:.3g} times Sq."
             )
-    share = point.contact_load / (point.contact_load + point.film_load)
     rubbing = point.decision.contact_load_in_words.format(part=percent_or_less(share, 3))
     if math.isfinite(point.mean_gap):
-        rubbing += f"; the mean separation of the surfaces is {plain_number(point.mean_gap, 'm')}"
+        rubbing += f"; the mean separation, which is the mean gap of the rough surfaces, is {plain_number(point.mean_gap, 'm')}"
     sentences.append(f"{rubbing}.")
     f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))

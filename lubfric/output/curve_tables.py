@@ -13,13 +13,26 @@ from ..units import beside_interval, converted, interval_in_words, unit_for, uni
 from .budget_bars import budget_labels
 from .curve_answer import largest_error_of_points, model_of_point
 from .describe import is_among
-from .films_in_words import LOADS, films_at_limit, note_on_touching
+from .films_in_words import FILMS_AND_GAPS, LOADS, films_at_limit, note_on_touching
 from .markup import ASPERITY_LOAD_RATIO, INTERVAL_OF_F, Cell, column_heading, number_cells, number_or_dash, table
 from .operating_point import operating_point_of
 from .rolling_part import cells_of_rolling, heading_of_rolling, is_tabled, negative_in_words, rolling_part
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
+# Loads and friction forces of the table of details, with their headings.
+FORCES = {
+    "contact_load": "asperity load F_C [N]",
+    "film_load": "film load F_H [N]",
+    "boundary_force": "boundary force [N]",
+    "couette_force": "viscous shear (Couette) of the film [N]",
+    "rolling_force": "rolling part of the film [N]",
+}
+# What these forces are together, and where the rolling part is from.
+SUM_OF_FORCES = (
+    "f times the load is the sum of the boundary force, the viscous shear and the rolling part. The rolling part is by "
+    "the gradient of pressure and, with moving roughness, by the pressure on flanks, which scatters about 0."
+)
 # What follows the scene's own speed or ratio in the table of a curve.
 OPERATING_POINT = " (operating point)"
 
@@ -81,24 +94,21 @@ def details_of_points(curve: CurveResult) -> str:
         if point is not None:
             words = point.uncertainty.budget_in_words
             parts = [words[name] for name in labels]
-            forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
+            forces = [getattr(point, name) for name in FORCES]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [number_or_dash(number) for number in (*forces, *lengths)]
             rows.append(number_cells([f"{value:.4g}", *parts, *numbers, model_of_point(point)]))
     heads = [
         column_heading(swept, unit),
         *(label.partition(" (")[0] for label in labels.values()),
-        "asperity load F_C [N]",
-        "film load F_H [N]",
-        "boundary force [N]",
-        "shear force of the film [N]",
+        *FORCES.values(),
         "mean separation [nm]",
         "central separation [nm]",
         "smallest film [nm]",
         "model",
     ]
     touching = note_on_touching(point.min_film for point in curve.points if point is not None)
-    notes = filter(None, (touching, _error_of_loads(curve)))
+    notes = filter(None, (SUM_OF_FORCES, FILMS_AND_GAPS, touching, _error_of_loads(curve)))
     note = "".join(f"<p>{escape(text)}</p>" for text in notes)
     return f"<details><summary>Details of every point</summary>{note}{table(heads, rows)}</details>" if rows else ""
 

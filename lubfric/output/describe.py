@@ -35,7 +35,7 @@ from ..models.shared import (
     Violation,
     beforehand,
     effect_in_words,
-    expected_alpha_at,
+    expected_alpha_of_scene,
     expected_coefficient,
     expected_effects,
     gathered,
@@ -71,6 +71,7 @@ from ..time import (
 )
 from ..units import as_beside, converted, worded
 from .inputs import FACTS, input_rows
+from .regime import FULL_FILM_LAMBDA
 from .rolling_part import SMALL_ROLLING_PART, rolling_part
 
 # Part of the largest f by which f may be above the line between two ratios, from which on this is stated before the
@@ -127,12 +128,6 @@ SPEED_ROUNDING = 1e-9
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine
 # digits. A choice: any number between rounding and a speed does.
 STANDSTILL_PART = 1e-8
-# Part of the power loss from which the error of the rolling resistance in it is stated. A choice: a smaller part
-# changes the loss by less than 3 % at the largest error.
-LARGE_ROLLING_PART = 0.2
-# Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the
-# usual limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
-FULL_FILM_LAMBDA = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -170,7 +165,7 @@ class SceneEstimate:
 
 
 def rolling_in_words(point: FrictionResult) -> str:
-    """Return how much of the power loss of ``point`` is rolling resistance, and of a large part its error at 95 %, as
+    """Return how much of the power loss of ``point`` is rolling resistance, of which film, and its error at 95 %, as
     text to be appended; "" for a small part."""
     rolling = float(rolling_part(point.rolling_resistance, point.speed))
     if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
@@ -178,8 +173,9 @@ def rolling_in_words(point: FrictionResult) -> str:
     part = as_beside(rolling, point.power_loss, *point.power_loss_interval, unit="W")
     (low, high) = point.rolling_resistance_interval
     error = 0.5 * (high - low) / abs(point.rolling_resistance)
-    is_stated = rolling > LARGE_ROLLING_PART * abs(point.power_loss) and math.isfinite(error)
-    return f", of which {part} is rolling resistance{f' (± {percent(error)})' if is_stated else ''}"
+    size = f"± {percent(error)}" if math.isfinite(error) else ""
+    facts = ", ".join(filter(None, (size, point.decision.rolling_in_words)))
+    return f", of which {part} is rolling resistance{f' ({facts})' if facts else ''}"
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -366,7 +362,7 @@ def _effects_before(
     else:
         effects = expected_effects(scene, sq, speed, includes_motion=may_move_roughness(scene))
         place = f"at {speed:.4g} m/s"
-        of_alpha = expected_alpha_at(scene, speed, effects)
+        of_alpha = expected_alpha_of_scene(scene, effects)
         rows = [effect_in_words(effect) for effect in effects if not (of_alpha and effect.is_of_alpha)]
         rows = [*filter(None, [of_alpha]), *rows]
     if not rows:

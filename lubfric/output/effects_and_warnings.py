@@ -5,13 +5,18 @@ from html import escape
 
 import numpy as np
 
-from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, sentence
+from ..models.shared import ExpectedEffect, GatheredTexts, Prepared, UnmodelledEffect, at_values, sentence
 from ..studies import CurveResult
 from ..time import LEAST_SHARE_OF_F, TransientResult, effects_of_run, rolls, without_steady_film
 from .describe import SceneEstimate
 from .markup import NUMBER, Cell, bullets, folded_notes, plain_cells, table
 from .operating_point import place_on_curve
 
+# What the page has where no effect of a place is tabled.
+NO_EFFECTS = (
+    "{}, at its asperity load ratio, each known effect changes f by less than the numerical tolerance. ('lubfric info' "
+    "estimates larger changes before the solve, for all asperity load ratios that the result might have had.)"
+)
 # What the page has where there are no warnings.
 NO_WARNINGS = "There are no warnings."
 
@@ -36,7 +41,7 @@ def effects_table(
     """Return the table of the effects that are not modelled at a ``place``; ``which``: what is said of the place;
     ``moments``: of a run in time, when each is largest; ``note``: a sentence to be appended."""
     if not effects:
-        return f"<p>Each known effect changes f {escape(place)} by less than the numerical tolerance.</p>"
+        return f"<p>{escape(NO_EFFECTS.format(sentence(place).removesuffix('.')))}</p>"
     rows = []
     for index, effect in enumerate(effects):
         row = [Cell(text=sentence(effect.what)), Cell(text=effect.change_in_words, kind=NUMBER)]
@@ -44,7 +49,7 @@ def effects_table(
         row += plain_cells([sentence(effect.recommendation)])
         rows.append(row)
     head = f"<p>Likely changes of f {escape(place)}{which}, estimated with closed forms.{note}</p>"
-    heads = ["effect", "change of f", *(["largest at"] if moments else []), "recommendation"]
+    heads = ["effect", "change of f", *(["where"] if moments else []), "recommendation"]
     return head + table(heads, rows, in_sentences=True)
 
 
@@ -52,19 +57,27 @@ def effects_at_other_points(curve: CurveResult, listed: Container[str]) -> str:
     """Return the table of the effects that are not modelled and are not ``listed`` for the operating point, each at the
     point of the curve where it changes f the most; "" where there are none."""
     largest: dict[str, tuple[float, UnmodelledEffect, str]] = {}
+    unknown_at: dict[str, list[float]] = {}
+    name, _, unit, plural = curve.SWEPT
     for index, point in enumerate(curve.points):
         if point is None:
             continue
         for effect in point.unmodelled_effects:
             if effect.what in listed:
                 continue
+            if np.isnan(effect.largest_change):
+                unknown_at.setdefault(effect.what, []).append(getattr(curve, name)[index])
             change = float(np.nan_to_num(effect.largest_change * abs(point.coefficient)))
             if effect.what not in largest or change > largest[effect.what][0]:
                 largest[effect.what] = (change, effect, place_on_curve(curve, index))
     shown = sorted(largest.values(), key=lambda row: -row[0])
     place = "at other points of the curve"
-    which = ", each at the point where it changes f the most"
-    moments = [where.removeprefix("at ") for *_, where in shown]
+    which = ", each at the point where it changes f the most, or at those where its change is not estimated"
+    places = [
+        at_values(unknown_at[what], unit, plural) if np.isnan(effect.largest_change) else where
+        for what, (_, effect, where) in ((row[1].what, row) for row in shown)
+    ]
+    moments = [where.removeprefix("at ") for where in places]
     return effects_table([effect for _, effect, _ in shown], place, which, moments) if shown else ""
 
 

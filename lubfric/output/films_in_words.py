@@ -16,6 +16,12 @@ GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities
 NEAR_FLOOR = 5.0 * FLOOR
 # Relative rounding error of that gap as a mean over strips. A choice: any number between rounding and a nanometre does.
 FLOOR_ROUNDING = 1e-6
+# What the films and gaps of a table of details are, and which of them the lambda ratio has.
+FILMS_AND_GAPS = (
+    "The film thickness of the lambda ratio is the full-load film. The separations are gaps of the rough surfaces, mean "
+    "over the Hertz strip and, central, at x = 0: where asperities touch, summits hold them open, so they are larger "
+    "than the film. By the load-sharing model the central separation is the smooth film under the film load F_H."
+)
 # Loads that say what carries F_T.
 LOADS = ("contact_load", "film_load", "boundary_film_load", "saturated_film_load")
 # Part of the load on films at their limiting stress from which it is stated. A convention.

@@ -42,6 +42,7 @@ from .operating_point import operating_point_not_solved, operating_point_of
 from .picture_options import PictureOptions
 from .plot_again import measured_of
 from .progress import ProgressLine
+from .regime import regime_of
 from .run_files import names_of_run
 from .swept_values import in_percent, parse_ratios, parse_speeds
 from .time_left import TimeLeft
@@ -459,14 +460,17 @@ def _say_operating_point(scene: Scene, requested: list[float], *, are_of_command
 
 def lines_of_point(point: FrictionResult) -> list[str]:
     """Return what is said of a solved ``point``, a line each: f, the parts of its interval, what the interval does not
-    contain, power loss, loads and time."""
+    contain, power loss, lubrication regime, film, loads and time."""
     loads = in_words(point, ("contact_load", "film_load"))
     words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
+    regime = regime_of(point.contact_load / (point.contact_load + point.film_load))
+    film = f"full-load film {plain_number(point.full_load_film, 'm')}, lambda ratio {point.lambda_ratio:.3g}"
     loss = with_interval(point.power_loss, *point.power_loss_interval, unit="W")
     return [
         *point.uncertainty.short_lines(point.coefficient),
         *([point.not_in_interval] if point.not_in_interval else []),
         f"power loss: P = {loss}{rolling_in_words(point)}",
+        "; ".join(filter(None, (regime, film if math.isfinite(point.lambda_ratio) else ""))),
         f"loads: {words} (wall-clock time of the point {point.seconds:.2f} s)",
     ]
 

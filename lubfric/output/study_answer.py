@@ -30,6 +30,7 @@ from ..studies import (
 )
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval
 from .best_designs import best_lines
+from .regime import regimes_in_words
 from .rolling_part import rolling_part
 from .single_changes import listed_changes, single_change_lines
 from .status import omitted_heat_in_words, status_of_study
@@ -88,7 +89,14 @@ def answer_lines(result: StudyResult) -> list[str]:
         rows += _mean_lines(result)
     rows += _extremes_lines(result)
     heat = [f"{text} {GIVE_TEMPERATURE}" for text in omitted_heat_in_words(status_of_study(result).omitted_heat)]
-    return [*rows, *effects, *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
+    return [*rows, *effects, *_regimes_lines(result), *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
+
+
+def _regimes_lines(result: StudyResult) -> list[str]:
+    """Return the lubrication regimes of the points in a sentence; none where no load is known."""
+    columns = columns_of_study(result)
+    loads = zip(columns["contact_load"].tolist(), columns["film_load"].tolist())
+    return regimes_in_words(contact / (contact + film) if contact + film else math.nan for contact, film in loads)
 
 
 def _extremes_lines(result: StudyResult) -> list[str]:

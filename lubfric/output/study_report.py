@@ -14,7 +14,7 @@ from ..studies import StudyResult, columns_of_study
 from ..units import plain_number
 from .best_designs import best_table
 from .effects_and_warnings import NO_WARNINGS, effects_table
-from .films_in_words import films_at_limit, note_on_touching
+from .films_in_words import FILMS_AND_GAPS, films_at_limit, note_on_touching
 from .markup import folded_notes, picture
 from .methods import methods_to_quote, scene_in_words
 from .page import framed
@@ -58,6 +58,7 @@ def study_page(
     about += f" {at_limit}" if at_limit else ""
     about += why_no_intervals(result)
     about += f" {touching}" if touching else ""
+    about += f" {FILMS_AND_GAPS}"
     return framed(
         "study_report.html",
         "study of a lubricated line contact",

@@ -486,7 +486,7 @@ def test_an_estimated_pressure_viscosity_coefficient_stands_beside_the_answer(tm
     page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
     answer = page.partition("Uncertainty budget")[0]
     assert (
-        "the pressure-viscosity coefficient is estimated, and the interval does not contain the range" in answer
+        "the pressure-viscosity coefficient is an estimate, and the interval does not contain the range" in answer
     ) == is_estimate
     if is_estimate:
         effects = lubfric.friction(scene, 0.5).unmodelled_effects

@@ -17,6 +17,7 @@ from lubfric.models.shared import (
     alpha_of_points_in_words,
     change_in_words,
     effect_in_words,
+    expected_alpha_of_scene,
     expected_effects,
     length_beside_interval,
     unmodelled_effects,
@@ -220,18 +221,15 @@ def test_a_range_is_recommended_where_the_interval_will_contain_it():
     assert "[value, low, high]" in at_point and "[value, low, high]" not in in_time
 
 
-def test_info_states_the_range_of_an_estimated_coefficient_once_with_its_place_and_what_to_do():
+def test_info_states_the_range_of_an_estimated_coefficient_once_with_what_to_do():
     """Nothing is said of a given coefficient."""
     text = " ".join(describe_scene(ROLLER).split())
     speed = ROLLER.motion.entrainment_speed
     ends = [effect for effect in expected_effects(ROLLER, SQ, speed) if effect.is_of_alpha]
     section = text.partition("effects not modelled")[2]
     assert len(ends) == 1 and section.count("pressure-viscosity coefficient") == 1
-    (percentage,) = re.search(
-        r"this range changes f by at most about ([\d.]+) % either way, estimated with closed forms", section
-    ).groups()
-    assert float(percentage) == pytest.approx(100 * ends[0].high, rel=0.06)
-    assert f"At {speed:.4g} m/s and a peak Hertz pressure of" in section
+    alpha = ROLLER.lubricant.oil.pressure_viscosity_coefficient(ROLLER.lubricant.temperature)
+    assert f"the range of measured oils is {1e9 * alpha.low:.3g} to {1e9 * alpha.high:.3g} 1/GPa" in section
     assert "Give lubricant.pressure_viscosity_coefficient from a data sheet" in section
     given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": ROLLER.lubricant.pressure_viscosity_coefficient})
     assert "pressure-viscosity" not in describe_scene(given).partition("effects not modelled")[2]
@@ -356,3 +354,14 @@ def test_a_thinner_film_moves_load_to_asperities_as_solved_contacts_show():
     assert 0.3 < result.contact_load / 2000.0 < 0.95
     smoother = lubfric.friction(scene.with_(surface={"sq": 0.6 * SQ}), speed).coefficient / result.coefficient - 1
     assert 0.4 < told(result.unmodelled_effects, "running-in") / smoother < 2.5
+
+
+@pytest.mark.parametrize("oil, origin", [("fva-3", "measured for this oil"), ("mineral-100", "an estimate")])
+def test_a_coefficient_that_is_measured_for_the_oil_is_no_estimate(oil, origin):
+    """FVA 3 has measured coefficients, with their range; before the solve no second number of its effect is stated."""
+    scene = ROLLER.with_(lubricant={"oil": oil})
+    words = alpha_of_points_in_words({1: unmodelled_effects(scene, SQ, 1.0)}, 1)
+    assert words.startswith(f"The pressure-viscosity coefficient is {origin}; ")
+    assert ("measured oils" in words) == (origin == "an estimate")
+    before = expected_alpha_of_scene(scene, expected_effects(scene, SQ, 1.0))
+    assert before.startswith(f"the pressure-viscosity coefficient is {origin}; ") and "%" not in before

@@ -302,8 +302,7 @@ def test_the_answer_begins_with_the_best_design_and_says_where_one_wins_everywhe
 
 
 def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_coefficient():
-    """That of the single runs of its points, with the number of the point; the plan states it before as a range that
-    holds it."""
+    """That of the single runs of its points, with the number of the point; the plan has no other number for it."""
     graded = SCENE.with_(
         lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60}, numerics={"model": "paper"}
     )
@@ -321,14 +320,12 @@ def test_a_study_states_the_largest_change_by_an_estimated_pressure_viscosity_co
     assert int(stated[2]) == worst
     assert float(stated[1]) == pytest.approx(100 * changes[worst], rel=0.06)
     (before,) = (text for text in plan.explain().splitlines() if "measured oils" in text)
-    assert float(stated[1]) <= float(re.search(r"by at most about (\S+) % either way", before)[1])
-    assert before.count("closed forms") == 1
+    assert "the report states by how much this changes f" in before and "%" not in before
     given = graded.with_(lubricant={"pressure_viscosity_coefficient": 2e-8})
     assert "measured oils" not in lubfric.plan_study(given, {"bodies.load": LOADS[:2]}, [2.0]).explain()
 
 
-def test_a_study_that_goes_on_states_the_change_over_all_of_its_points(tmp_path):
-    """Not over the points that are left alone, whose change is smaller."""
+def test_a_study_that_goes_on_states_the_estimated_coefficient_as_before(tmp_path):
     graded = SCENE.with_(
         lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60}, numerics={"model": "paper"}
     )
@@ -342,8 +339,7 @@ def test_a_study_that_goes_on_states_the_change_over_all_of_its_points(tmp_path)
     plan = plan_at([0.01, 2.0])
     lubfric.study(plan_at([0.01]), store=tmp_path)
     assert "kept     1 of 2" in plan.explain(tmp_path)
-    left = lubfric.plan_study(graded, points={"load": LOADS[1:2], "speed": [2.0]})
-    assert stated(plan, tmp_path) == stated(plan) != stated(left)
+    assert stated(plan, tmp_path) == stated(plan) != ""
 
 
 @pytest.mark.parametrize("loads, compared", [((5.0, 3.0, 8.0), False), ((5.0, 3.0, 3.0), True)])

@@ -104,7 +104,7 @@ def test_a_study_of_which_no_point_can_be_solved_is_refused_before_any_work(tmp_
 
 @pytest.mark.parametrize(
     "vary, lines",
-    [({}, 2), ({"bodies.load": [3.0, 5.5]}, 7), ({"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, 8)],
+    [({}, 3), ({"bodies.load": [3.0, 5.5]}, 8), ({"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, 9)],
 )
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary, lines):
     """Its answer has the errors of the largest f, and of one point its numbers in one line, else the extremes, why they

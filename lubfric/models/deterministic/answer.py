@@ -96,6 +96,8 @@ BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
 BY_LIMIT = "the limiting stress of the oil, which is not given"
 LESS_BY_LIMIT = "give lubricant.limiting_stress_coefficient to reduce it"
+# Of which film the rolling resistance of moving roughness is.
+OF_SMOOTH_FILM = "of a smooth film under the film load F_H"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 # What lets shorter cells converge: on them the summits of an optical map are steeper.
 FILTERED_MAP = "filter short waves out of the map (surface.s_filter; f changes too)"
@@ -122,11 +124,13 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     heat = heat_of_strips(scene, results)
     numbers = warmed(scene, levels.numbers, heat) | {"speed": speed}
     errors = dict(levels.errors)
+    of_which_film = ""
     if has_moving_roughness(scene):
         with suppress(ConvergenceError):  # then it is that of the strips, whose error is not known
             resistance, error = smooth_rolling_resistance(scene, speed, numbers["film_load"])
             numbers["rolling_resistance"] = resistance
             errors["rolling_resistance"] = error
+            of_which_film = OF_SMOOTH_FILM
     sampling_error = levels.sampling_error
     if not math.isfinite(sampling_error.value):
         sampling_error = replace(sampling_error, value=math.nan)
@@ -157,7 +161,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         not_given={key: by_input_not_given[key] for key in inputs_not_given(scene)},
         report=replace(results[0].report, notes=()),
-        decision=_decision(scene, results, levels, heat),
+        decision=replace(_decision(scene, results, levels, heat), rolling_in_words=of_which_film),
         length=levels.length,
         violations=(
             *violations_of_strips(prepared, numbers, results, heat),

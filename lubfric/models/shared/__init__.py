@@ -9,8 +9,8 @@ from .alpha_in_words import (
     alpha_beside_interval,
     alpha_of_fit_in_words,
     alpha_of_points_in_words,
-    expected_alpha_at,
     expected_alpha_in_words,
+    expected_alpha_of_scene,
 )
 from .checks import (
     ERROR_OF_ORDER_OF_MAGNITUDE,

@@ -4,16 +4,22 @@ or a fit, and before there is a result."""
 from collections.abc import Iterable, Mapping, Sequence
 
 from ...scene import Scene
-from ...units import worded
-from .checks import peak_hertz_pressure
-from .unmodelled import GIVE_ALPHA, ExpectedEffect, UnmodelledEffect, at_most_in_words, ends_of_alpha
+from .unmodelled import (
+    GIVE_ALPHA,
+    ExpectedEffect,
+    UnmodelledEffect,
+    at_most_in_words,
+    ends_of_alpha,
+    is_alpha_measured,
+)
 from .violation import numbers_in_words
 
-# What the change is before there is a result. A convention.
-UPPER_BOUND = (
-    "estimated with closed forms for all asperity load ratios that the result may have; the report states the change "
-    "at the solved ratio, which is often much smaller"
-)
+# Where the change of f is stated, which depends on the asperity load ratio of the result.
+IN_REPORT = "the report states by how much this changes f"
+
+# What the coefficient is, and the range that changes f: that of its measurements (True), or of measured oils.
+ORIGINS = {True: "measured for this oil", False: "an estimate"}
+RANGES = {True: "the range of its measurements", False: "the range of measured oils"}
 
 
 def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledEffect]], count: int) -> str:
@@ -31,50 +37,52 @@ def alpha_of_points_in_words(effects_by_point: Mapping[int, Sequence[UnmodelledE
     largest = at_most_in_words(changes[worst]) + (f" (at point {worst})" if count > 1 else "")
     where = "At all points" if len(numbers) == count > 1 else numbers_in_words(numbers, count)
     others = " (less than the numerical tolerance at the others)" if len(numbers) < count else ""
+    is_measured = _is_measured(effects_by_point[worst])
     return (
-        "The pressure-viscosity coefficient is an estimate, whose error is not in the interval of f. "
-        f"{where}{others}, by closed forms, the range of measured oils changes f by {largest}; {GIVE_ALPHA}."
+        f"The pressure-viscosity coefficient is {ORIGINS[is_measured]}; its error is not in the interval of f. "
+        f"{where}{others}, by closed forms, {RANGES[is_measured]} changes f by {largest}; {GIVE_ALPHA}."
     )
 
 
 def alpha_of_fit_in_words(effects_of_points: Iterable[Sequence[UnmodelledEffect]]) -> str:
     """Return by how much the range of an estimated pressure-viscosity coefficient changes f at most at the points of a
     fit, whose parameters have this error too, and what to give; "" as of `alpha_of_points_in_words`."""
-    largest = max(map(_largest_by_alpha, effects_of_points), default=0.0)
+    worst = max(effects_of_points, key=_largest_by_alpha, default=())
+    largest = _largest_by_alpha(worst)
     if not largest:
         return ""
+    is_measured = _is_measured(worst)
     return (
-        "not in the intervals: the error of the pressure-viscosity coefficient, which is an estimate and moves the "
-        f"fitted parameters; by closed forms, the range of measured oils changes f by {at_most_in_words(largest)}; give "
+        f"not in the intervals: the error of the pressure-viscosity coefficient, which is {ORIGINS[is_measured]} and "
+        f"moves the fitted parameters; by closed forms, {RANGES[is_measured]} changes f by {at_most_in_words(largest)}; give "
         "lubricant.pressure_viscosity_coefficient"
     )
 
 
 def expected_alpha_in_words(effects: Sequence[ExpectedEffect]) -> str:
-    """Return the same before there is a result, from the ``effects`` that are expected at all points; "" where there is
-    none."""
-    largest = _largest_by_alpha(effects)
-    if not largest:
+    """Return that the interval of f will not contain the range of the pressure-viscosity coefficient, from the
+    ``effects`` that are expected at all points; "" where there is none. A bound of the change of f for all asperity
+    load ratios would be several times the change."""
+    if not _largest_by_alpha(effects):
         return ""
+    is_measured = _is_measured(effects)
     return (
-        "the pressure-viscosity coefficient is an estimate, whose error will not be in the interval of f: the range of "
-        f"measured oils changes f by {at_most_in_words(largest)}, {UPPER_BOUND}; {GIVE_ALPHA}"
+        f"the pressure-viscosity coefficient is {ORIGINS[is_measured]}, and the interval of f will not contain "
+        f"{RANGES[is_measured]}; {IN_REPORT}; {GIVE_ALPHA}"
     )
 
 
-def expected_alpha_at(scene: Scene, speed: float, effects: Sequence[ExpectedEffect]) -> str:
-    """Return what the range of an estimated pressure-viscosity coefficient means for f at ``speed`` [m/s], before there
-    is a result, and what to do, in two sentences; "" where none of the ``effects`` is of this coefficient."""
-    largest = _largest_by_alpha(effects)
-    if not largest:
+def expected_alpha_of_scene(scene: Scene, effects: Sequence[ExpectedEffect]) -> str:
+    """Return the same of one ``scene``, with the range, in sentences; "" where none of the ``effects`` is of this
+    coefficient."""
+    if not _largest_by_alpha(effects):
         return ""
     (low, high) = (1e9 * alpha for alpha in ends_of_alpha(scene))
-    peak = worded(peak_hertz_pressure(scene), "Pa")
+    is_measured = is_alpha_measured(scene)
     return (
-        f"the pressure-viscosity coefficient is estimated; measured oils have {low:.3g} to {high:.3g} 1/GPa, and the "
-        f"interval of f does not contain this range. At {speed:.4g} m/s and a peak Hertz pressure of {peak} this range "
-        f"changes f by {at_most_in_words(largest)}, {UPPER_BOUND}. Give lubricant.pressure_viscosity_coefficient from a "
-        "data sheet or a measurement, or as [value, low, high], whose effect is then solved and in the interval"
+        f"the pressure-viscosity coefficient is {ORIGINS[is_measured]}; {RANGES[is_measured]} is {low:.3g} to {high:.3g} "
+        f"1/GPa, which the interval of f does not contain; {IN_REPORT}. Give lubricant.pressure_viscosity_coefficient "
+        "from a data sheet or a measurement, or as [value, low, high], whose effect is then solved and in the interval"
     )
 
 
@@ -84,10 +92,16 @@ def alpha_beside_interval(effects: Sequence[UnmodelledEffect]) -> str:
     largest = _largest_by_alpha(effects)
     if not largest:
         return ""
+    is_measured = _is_measured(effects)
     return (
-        "the pressure-viscosity coefficient is estimated, and the interval does not contain the range of measured oils, "
-        f"which changes f by {at_most_in_words(largest)}"
+        f"the pressure-viscosity coefficient is {ORIGINS[is_measured]}, and the interval does not contain "
+        f"{RANGES[is_measured]}, which changes f by {at_most_in_words(largest)}"
     )
+
+
+def _is_measured(effects: Sequence[UnmodelledEffect] | Sequence[ExpectedEffect]) -> bool:
+    """Return whether the coefficient of the ``effects`` is measured for the oil."""
+    return any(effect.is_of_measured_alpha for effect in effects)
 
 
 def _largest_by_alpha(effects: Sequence[UnmodelledEffect] | Sequence[ExpectedEffect]) -> float:

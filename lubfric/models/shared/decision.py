@@ -30,6 +30,7 @@ class Decision(Renamed):
     basis : what answered of this model, and what its model-form error rests on, first in ``text``; "": its name says so
     counts_cells_as_model_error : whether the error by the cells is in the model-form error, not in the numerical one
     contact_load_in_words : what the ``contact_load`` of this model is, with a place for its part of the load
+    rolling_in_words : of which film the rolling resistance is; "": of that of the model
     """
 
     model: str = ""
@@ -50,6 +51,7 @@ class Decision(Renamed):
     basis: str = ""
     counts_cells_as_model_error: bool = False
     contact_load_in_words: str = "The asperities carry {part} of the load"
+    rolling_in_words: str = ""
     _RENAMED = {
         "film": "film_in_words",
         "contact": "contact_in_words",

@@ -99,6 +99,7 @@ class UnmodelledEffect:
     is_of_alpha : whether it is that of an estimated pressure-viscosity coefficient: then the change is the largest one
         either way
     kind : which effect it is, where ``what`` has numbers of the moment; "": ``what`` says so
+    is_of_measured_alpha : whether that coefficient is measured for the oil, and the change is by its range
     """
 
     what: str
@@ -107,6 +108,7 @@ class UnmodelledEffect:
     is_of_alpha: bool = False
     kind: str = ""
     other_change: float | None = None
+    is_of_measured_alpha: bool = False
 
     @property
     def changes(self) -> tuple[float, ...]:
@@ -130,7 +132,7 @@ class ExpectedEffect:
 
     Attributes
     ----------
-    what, recommendation, is_of_alpha, kind : as of `UnmodelledEffect`
+    what, recommendation, is_of_alpha, kind, is_of_measured_alpha : as of `UnmodelledEffect`
     low, high : lowest and highest change of f, relative [-]; NaN where they are not known
     """
 
@@ -140,6 +142,7 @@ class ExpectedEffect:
     recommendation: str
     is_of_alpha: bool = False
     kind: str = ""
+    is_of_measured_alpha: bool = False
 
     @property
     def changes(self) -> tuple[float, float]:
@@ -218,6 +221,7 @@ class _PossibleEffect:
     is_of_alpha: bool = False
     kind: str = ""
     other_change: Callable[[FrictionParts | None], float | None] = lambda result: None
+    is_of_measured_alpha: bool = False
 
     def at(self, result: FrictionParts | None) -> UnmodelledEffect | None:
         """Return the effect on a ``result``."""
@@ -231,6 +235,7 @@ class _PossibleEffect:
             recommendation=self.recommendation,
             is_of_alpha=self.is_of_alpha,
             kind=self.kind,
+            is_of_measured_alpha=self.is_of_measured_alpha,
         )
 
 
@@ -287,6 +292,7 @@ def expected_effects(
                     recommendation=possible.recommendation,
                     is_of_alpha=possible.is_of_alpha,
                     kind=possible.kind,
+                    is_of_measured_alpha=possible.is_of_measured_alpha,
                 )
             )
     return _largest_first(effects, scene.numerics.tolerance)
@@ -387,14 +393,16 @@ def _estimated_alpha(point: _Point) -> _PossibleEffect | None:
         alpha: guessed_parts(scene.with_(lubricant={"pressure_viscosity_coefficient": alpha}), guess.sq, guess.speed)
         for alpha in ends
     }
+    is_measured = is_alpha_measured(scene)
+    of_which = (
+        "the range of its measurements" if is_measured else "the range of measured oils, in place of the estimate"
+    )
     return _PossibleEffect(
-        what=(
-            f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, the range of "
-            "measured oils, in place of the estimate"
-        ),
+        what=f"a pressure-viscosity coefficient of {1e9 * ends[0]:.3g} to {1e9 * ends[1]:.3g} 1/GPa, {of_which}",
         change=lambda result: max(guess.bound_by_alpha(parts, result, alpha) for alpha, parts in after.items()),
         recommendation=GIVE_ALPHA_IN_TIME if point.is_in_time else GIVE_ALPHA,
         is_of_alpha=True,
+        is_of_measured_alpha=is_measured,
     )
 
 
@@ -510,6 +518,11 @@ EFFECTS_OF_FILM = (
     _soft_cover,
 )
 EFFECTS_OF_BODIES = (_another_additive, _edges)
+
+
+def is_alpha_measured(scene: Scene) -> bool:
+    """Return whether the pressure-viscosity coefficient is that of measurements of the oil."""
+    return scene.lubricant.oil is not None and scene.lubricant.oil.is_coefficient_measured
 
 
 def ends_of_alpha(scene: Scene) -> tuple[float, ...]:
