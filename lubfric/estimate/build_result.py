@@ -113,7 +113,9 @@ def _violations(prepared: Prepared, answer: ModelAnswer, uncertainty: Uncertaint
     has_interval = math.isfinite(uncertainty.interval[0])
     for violation in _violations_by_model_error(prepared, answer, has_interval=has_interval):
         yield beside_larger_part(violation, uncertainty)
-    yield from violations_by_numerical_error(uncertainty.numerical, scene.numerics.tolerance, answer.recommendation)
+    yield from violations_by_numerical_error(
+        uncertainty.numerical, scene.numerics.tolerance, answer.recommendation, has_interval=has_interval
+    )
 
 
 def _violations_by_model_error(prepared: Prepared, answer: ModelAnswer, *, has_interval: bool) -> Iterator[Violation]:

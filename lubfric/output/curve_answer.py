@@ -167,7 +167,7 @@ def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
         changes.append(f"{100 * ((last / first) ** by_factor - 1):+.2g} %")
     return [
         f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} "
-        f"and the lambda ratio by {changes[1]}. As much more viscosity has the same effect, except for heat."
+        f"and the lambda ratio by {changes[1]}. {100 * (FASTER - 1):.0f} % more viscosity does the same, but for the heat."
     ]
 
 

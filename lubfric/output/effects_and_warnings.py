@@ -19,6 +19,8 @@ NO_EFFECTS = (
 )
 # What the page has where there are no warnings.
 NO_WARNINGS = "There are no warnings."
+# The same where there are notes, as on errors above their tolerances.
+NOTES_ALONE = "There are no warnings, but notes: the interval of f includes their effect, or nothing reduces it."
 
 
 def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterable[str] = ()) -> str:
@@ -28,7 +30,9 @@ def warnings_and_notes(gathered: Iterable[GatheredTexts], further_notes: Iterabl
     warnings = [sentence(each.text) for each in known if not each.is_note]
     notes = [sentence(each.text_without_head) for each in known if each.is_note]
     notes += map(sentence, further_notes)
-    return bullets(warnings, NO_WARNINGS, "warning") + folded_notes(bullets(notes), len(notes))
+    return bullets(warnings, NOTES_ALONE if notes else NO_WARNINGS, "warning") + folded_notes(
+        bullets(notes), len(notes)
+    )
 
 
 def effects_table(

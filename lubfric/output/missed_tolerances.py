@@ -15,7 +15,6 @@ from ..models.shared import (
     half_width_of_error,
     is_by_sliding,
     is_near_zero,
-    percent,
     percent_beside,
     sentence,
     standard_error_in_words,
@@ -38,7 +37,6 @@ class MissedTolerance:
     points : numbers of the rows of the table, from 0
     worst : the row that is farthest above
     value, limit : the error there and its limit, relative to f, at 95 %
-    limits : the smallest and the largest limit of these rows; None: ``limit`` alone
     assumption : on this error, an `Assumption`
     notes : at how many of the points it is a note, because it is usual for the model or accepted with it
     uncounted : number of rows where the error is above its limit and does not count relative to f, as f is near 0 or
@@ -51,7 +49,6 @@ class MissedTolerance:
     worst: int
     value: float
     limit: float
-    limits: tuple[float, float] | None = None
     assumption: str = ""
     notes: int = 0
     uncounted: int = 0
@@ -72,12 +69,8 @@ class MissedTolerance:
             )
         where = "This" if self.notes == len(self.points) else f"At {self.notes} of these it"
         notes = f" {where} is a note, because {WHY_A_NOTE}." if self.notes else ""
-        above = "above its tolerance"
-        if self.limits is not None and percent(self.limits[0]) != percent(self.limits[1]):
-            low, high = map(percent, self.limits)
-            above = f"above its limits, {low.removesuffix(' %')} to {high}"
         return (
-            f"At {len(self.points)} of {total} points the {self.error} is {above}, farthest "
+            f"At {len(self.points)} of {total} points the {self.error} is above its tolerance, farthest "
             f"{place(self.worst)}: {value}, above {limit} ({self.tolerance}).{notes}"
         )
 
@@ -122,7 +115,6 @@ def missed_tolerances(
             uncounted=uncounted,
             value=float(error[worst]),
             limit=float(checked.limit[worst]),
-            limits=(float(checked.limit[points].min()), float(checked.limit[points].max())),
         )
 
 
@@ -162,7 +154,7 @@ def _checked_errors(columns: Mapping[str, np.ndarray], numerics: Sequence[Numeri
         assumption=Assumption.SAMPLING_ERROR,
         error=at_95 * _column(columns, "sampling_error", count),
         limit=at_95 * of_sample,
-        tolerance_of=lambda row: standard_error_in_words(float(of_sample[row])),
+        tolerance_of=lambda row: standard_error_in_words(float(of_sample[row])).removesuffix(","),
         counts=np.array([each.misses_sampling_tolerance for each in uncertainties], dtype=bool),
     )
     by_limit = np.nan_to_num(_column(columns, "limit_error", count))

@@ -470,7 +470,7 @@ def lines_of_point(point: FrictionResult) -> list[str]:
         *point.uncertainty.short_lines(point.coefficient),
         *([point.not_in_interval] if point.not_in_interval else []),
         f"power loss: P = {loss}{rolling_in_words(point)}",
-        "; ".join(filter(None, (regime, film if math.isfinite(point.lambda_ratio) else ""))),
+        "; ".join(filter(None, (regime or "", film if math.isfinite(point.lambda_ratio) else ""))),
         f"loads: {words} (wall-clock time of the point {point.seconds:.2f} s)",
     ]
 

@@ -103,7 +103,7 @@ class StatusOfPoints:
         solved = np.isfinite(self.columns["coefficient"])
         unknown = int(np.isnan(self.columns["interval_low"][solved]).sum())
         orders = orders_of_magnitude(self.columns["numerical_error"].tolist())
-        usual = usual_errors_in_words(self.usual_model_errors)
+        usual = usual_errors_in_words(self.usual_model_errors, self.columns["interval_low"])
         heat = omitted_heat_in_words(self.omitted_heat)
         return " ".join((*orders, head, *shortfalls(self.exceeded, unknown, total, place), *usual, *heat))
 
@@ -141,16 +141,17 @@ def omitted_heat_in_words(
     ]
 
 
-def usual_errors_in_words(errors: np.ndarray) -> list[str]:
-    """Return the `StatusOfPoints.usual_model_errors` in a sentence; none where all are NaN."""
+def usual_errors_in_words(errors: np.ndarray, low_ends: np.ndarray) -> list[str]:
+    """Return the `StatusOfPoints.usual_model_errors` in a sentence; none where all are NaN. ``low_ends``: of the
+    intervals of f, NaN where they are not known."""
     usual = errors[np.isfinite(errors)]
     if not usual.size:
         return []
     where = "The" if usual.size == errors.size else f"At {usual.size} of {errors.size} points the"
+    some = "" if np.isfinite(low_ends[np.isfinite(errors)]).all() else ", where it is known,"
     span = " to ".join(dict.fromkeys(map(percent, (float(usual.min()), float(usual.max())))))
     return [
-        f"{where} model-form error of f is {span}, as is usual for the quick model; the interval of f, where it is known, "
-        "includes it."
+        f"{where} model-form error of f is {span}, as is usual for the quick model; the interval of f{some} includes it."
     ]
 
 

@@ -89,7 +89,15 @@ def answer_lines(result: StudyResult) -> list[str]:
         rows += _mean_lines(result)
     rows += _extremes_lines(result)
     heat = [f"{text} {GIVE_TEMPERATURE}" for text in omitted_heat_in_words(status_of_study(result).omitted_heat)]
-    return [*rows, *effects, *_regimes_lines(result), *_rolling_line(result), *heat, *_alpha_line(result), *_budget_line(result)]
+    return [
+        *rows,
+        *effects,
+        *_regimes_lines(result),
+        *_rolling_line(result),
+        *heat,
+        *_alpha_line(result),
+        *_budget_line(result),
+    ]
 
 
 def _regimes_lines(result: StudyResult) -> list[str]:

@@ -13,11 +13,11 @@ from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import FrictionResult, cite_together
 from ..models.shared import (
+    ERROR_OF_ORDER_OF_MAGNITUDE,
     Assumption,
     GatheredTexts,
     Violation,
     alpha_of_fit_in_words,
-    consequence_of_numerical_error,
     gathered_on_curve,
     percent,
     percent_or_less,
@@ -478,9 +478,9 @@ class FitResult(Renamed, Shown):
 
 def _with_limit_of_fit(violation: Violation) -> Violation:
     """Return a ``violation`` that says of the numerical error that the fit set its limit; any other one as it is."""
-    if violation.assumption != Assumption.NUMERICAL_ERROR:
+    if violation.assumption != Assumption.NUMERICAL_ERROR or violation.effect > ERROR_OF_ORDER_OF_MAGNITUDE:
         return violation
-    return replace(violation, consequence=consequence_of_numerical_error(violation.effect, BY_NOISE))
+    return replace(violation, consequence=BY_NOISE)
 
 
 def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray] | None) -> None:

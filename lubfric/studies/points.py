@@ -12,6 +12,7 @@ from ..errors import InputError, LubfricError, ValidityError
 from ..estimate import FrictionResult, Uncertainty, friction, row_of_uncertainty
 from ..models import prepare, prepare_on_maps
 from ..models.shared import (
+    IN_INTERVAL,
     SAMPLING_ERROR,
     Assumption,
     Prepared,
@@ -35,9 +36,7 @@ CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
 VIOLATIONS = "violations"
 MISSING = "not computed"
-ACCEPTED_MODEL_ERROR = (
-    "numerics.model_tolerance sets this limit; the interval of f, where it is known, includes the error"
-)
+BY_MODEL_TOLERANCE = "numerics.model_tolerance sets this limit"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 
@@ -187,8 +186,7 @@ def _missed_sampling_tolerance(uncertainty: Uncertainty) -> Iterator[Violation]:
             value=100 * at_95 * uncertainty.sampling,
             limit=100 * at_95 * uncertainty.tolerance,
             unit="%",
-            consequence=f"{standard_error_in_words(uncertainty.tolerance)}, sets this limit; the interval of f "
-            "includes the error",
+            consequence=f"{standard_error_in_words(uncertainty.tolerance)} sets this limit; the interval of f includes it",
             recommendation=f"give a map of about {times:.2g} times the area" if times > 1 else "",
             effect=at_95 * uncertainty.sampling,
         )
@@ -200,15 +198,16 @@ def _accepted_model_error(point: FrictionResult, numerics: Numerics) -> Iterator
     if any(violation.assumption == Assumption.MODEL_FORM_ERROR for violation in point.validity):
         return
     is_named = numerics.model != "auto"
+    has_interval = math.isfinite(point.uncertainty.interval[0])
     for violation in violations_by_model_error(
         point.uncertainty.model,
         tolerance=numerics.model_tolerance,
         f=point.coefficient,
-        has_interval=math.isfinite(point.uncertainty.interval[0]),
+        has_interval=has_interval,
     ):
         yield replace(
             violation,
             is_note=True,
-            consequence=ACCEPTED_MODEL_ERROR,
+            consequence=f"{BY_MODEL_TOLERANCE}; {IN_INTERVAL[has_interval]}",
             recommendation="set numerics.model = 'auto' for the cheapest model within this limit" if is_named else "",
         )

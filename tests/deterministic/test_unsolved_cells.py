@@ -145,6 +145,6 @@ def test_a_local_peak_is_between_asperity_contacts_only_where_asperities_carry_l
     monkeypatch.setitem(checks.OF_VISCOSITY_LAW, "roelands", 1e6)
     monkeypatch.setattr(checks, "SPIKE", 0.5)
     point = lubfric.friction(PATCH.with_(numerics={"tolerance": 0.05}), speed)
-    (peak,) = (each.consequence for each in point.validity if "local film pressure" in each.what)
+    (peak,) = (each.consequence for each in point.validity if each.what == "highest film pressure")
     assert ("next to asperity contacts" in peak) == (point.contact_load > 0) == (speed < 0.1)
     assert ("over the roughness" in peak) == (point.contact_load == 0)

@@ -105,10 +105,11 @@ def test_the_model_form_error_by_heat_is_stated_by_its_parts(model):
     film."""
     hot = at(model, 5.0, 0.05, numerics={"model": "paper"})
     note = next(note for note in hot.uncertainty.notes if note.startswith("the model-form error by heat is "))
-    total, within, inlet = (float(number) for number in re.findall(r"([\d.]+) %", note)[:3])
+    total, within, thinner, inlet = (float(number) for number in re.findall(r"([\d.]+) %", note)[:4])
+    assert thinner == pytest.approx(100 * (1 - hot.inlet_film_factor), rel=0.06)
     change = float(re.search(r"changes f by -([\d.]+) %", hot.decision.heat_in_words)[1])
     assert within == pytest.approx(change / 2, rel=0.06) and inlet > within
     assert inlet == pytest.approx(50 * (1 - hot.inlet_film_factor), rel=0.06)
     assert total == pytest.approx(within + inlet, rel=0.06)
     assert total == pytest.approx(100 * hot.uncertainty.largest_in_model.error, rel=0.02)
-    assert "half of the change of f" in note and "an upper bound: f inversely proportional" in note
+    assert "half of their effect on f" in note and "an upper bound: f inversely proportional" in note

@@ -70,7 +70,7 @@ def test_warnings_recommend_nothing_that_the_scene_has():
     """Simple sliding is at the edge of the calibration, and a given limiting stress is not recommended again."""
     scene = ROLLING.with_(motion={"slide_roll_ratio": 2.0}, bodies={"load": 400.0})
     text = describe_scene(scene)
-    assert "peak film pressure is" in text and "give a measured limiting stress" not in text
+    assert "highest film pressure is" in text and "give a measured limiting stress" not in text
     assert "slide-roll ratio is 2" not in text
     without = describe_scene(scene.with_(lubricant={"limiting_stress_coefficient": None}))
     assert "give a measured limiting stress" in without

@@ -92,3 +92,18 @@ def test_an_error_of_next_to_no_friction_is_stated_in_f(run):
     f = {"coefficient": np.r_[np.full(count - 1, 0.1), 1e-3]}
     (text,) = missed_by_run(RUN, replace(run, violations=(), columns=run.columns | errors | f))
     assert "up to 30 %, and up to 0.05 in f itself where f is below 0.005" in text
+
+
+@pytest.mark.parametrize(
+    "low, words", [(0.05, "the interval of f includes it."), (np.nan, "the interval of f, where it")]
+)
+def test_the_interval_is_called_unknown_only_where_one_is(low, words):
+    note = replace(above(Assumption.MODEL_FORM_ERROR, 9.0, is_note=True), effect=0.09)
+    columns = {"coefficient": [0.05, 0.06], "model_error": [0.12, 0.09], "limit_error": [0.0794, 0.0]}
+    columns |= {"numerical_error": [0.0, 0.0], "interval_low": [0.04, low]}
+    status = StatusOfPoints(
+        columns={name: np.array(values) for name, values in columns.items()},
+        scenes=[RUN.with_(numerics={"model": "quick"})] * 2,
+        violations=[(note,), (note,)],
+    )
+    assert words in status.in_words("speeds", str)

@@ -70,7 +70,9 @@ def test_much_heat_is_left_to_the_quick_answer_or_reported():
     assert auto.decision.model == "quick" and "of its thickness, and f by" in auto.decision.text
     assert auto.coefficient == pytest.approx(requested.coefficient, rel=0.1)
     assert max(auto.uncertainty.model_sides) > 0.1
-    assert requested.deterministic is not None and any("largest that was checked" in e.what for e in requested.validity)
+    assert requested.deterministic is not None and any(
+        "for which the model was checked" in e.what for e in requested.validity
+    )
     assert solved(0.02, model="auto").deterministic is not None
 
 

@@ -240,7 +240,7 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     [
         (0.5, "numerics.grid = 'given' for shorter cells (some {} times the work of a strip)"),
         (10.0, "numerics.grid = 'given' and numerics.model = 'deterministic' for shorter cells"),
-        (1e4, "give a map with longer cells, and numerics.grid = 'given'"),
+        (1e4, "accept the numerical error by a larger numerics.tolerance: a strip on the cells of this map"),
     ],
 )
 def test_advice_to_take_shorter_cells_says_what_they_take(work, advice):

@@ -83,7 +83,8 @@ def test_an_error_that_is_usual_for_the_model_is_a_note_unless_the_others_are_to
     ]
     (violation,) = violations_by_model_error(0.21, tolerance=0.05, f=0.04, has_interval=True, parts=parts)
     assert violation.is_note == is_note and "long cells" in violation.text
-    assert ("not usual for this model make 6 % alone" in violation.text) != is_note
+    assert ("is a warning, because the other parts, 6 %, are above the limit" in violation.text) != is_note
+    assert ("is a note, because that part is usual for this model" in violation.text) == is_note
 
 
 def test_values_on_both_sides_of_a_range_are_two_sentences():

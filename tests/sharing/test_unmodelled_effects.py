@@ -3,7 +3,6 @@
 import csv
 import dataclasses
 import math
-import re
 from pathlib import Path
 
 import numpy as np

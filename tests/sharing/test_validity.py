@@ -274,8 +274,12 @@ def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     (at_hertz,) = violations_by_pressure(heavy, 1.2e9)
     (local,) = violations_by_pressure(heavy, 3e9, "of one film")
     assert "a local peak of one film" in local.text
-    assert "peak film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
-    assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text
+    assert "highest film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
+    assert (
+        "highest film pressure is 3 GPa" in local.text
+        and "a local peak" in local.text
+        and "the peak Hertz pressure is 1.2 GPa" in local.text
+    )
 
 
 def test_a_pressure_at_which_no_oil_is_liquid_is_apart_from_one_above_the_viscosity_law():
@@ -361,6 +365,10 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     for error, is_magnitude in (0.22, False), (0.49, False), (0.6, True):
         (large,) = violations_by_numerical_error(error, 0.01, "")
         assert not large.is_note and ("order of magnitude" in large.consequence) == is_magnitude
+    for has_interval in (True, False):
+        (note,) = violations_by_numerical_error(0.02, 0.01, "", has_interval=has_interval)
+        assert ("the interval of f includes it" in note.text) == has_interval
+        assert ("f has no interval" in note.text) != has_interval
     assert fast.not_in_interval.startswith(
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )
@@ -381,7 +389,7 @@ def test_the_first_line_says_which_inputs_the_interval_contains_and_that_an_esti
         texts.append((point.uncertainty.short(point.coefficient), point.not_in_interval))
     (estimated, given) = texts
     assert (
-        "the pressure-viscosity coefficient is estimated, and the interval does not contain the range" in estimated[1]
+        "the pressure-viscosity coefficient is an estimate, and the interval does not contain the range" in estimated[1]
     )
     assert given[1] == ""
     assert "input (eyring_stress) " in estimated[0] and "input (eyring_stress) " in given[0]
@@ -489,3 +497,11 @@ def test_advice_to_solve_by_the_deterministic_model_has_the_time_that_info_state
     assert math.isclose(of_model.recommendation_seconds, stated, rel_tol=1e-9)
     digit = float(f"{stated:.0e}")
     assert f"Recommendation (about {digit:g} s of processor time a point): set numerics.model = " in of_model.text
+
+
+@pytest.mark.parametrize("peak, is_bounded", [(3e9, False), (7.83e9, True)])
+def test_a_peak_at_the_plastic_limit_is_said_to_be_that_of_yielding_asperities(peak, is_bounded):
+    """100Cr6 of 7.83 GPa: a peak film pressure there is no property of the oil."""
+    scene = PAPER.with_(bodies={"hardness": 7.83e9}, lubricant={"limiting_stress_coefficient": 0.05})
+    (found,) = violations_by_pressure(scene, peak, "of single cells")
+    assert ("asperities yield at 7.83 GPa, the plastic limit" in found.text) == is_bounded

@@ -522,9 +522,8 @@ def test_a_status_names_the_tolerances_that_are_missed_and_by_how_much():
         "farthest at point 3: "
         f"{300 * numerics.tolerance:.2g} %, above {100 * numerics.tolerance:.2g} % (numerics.tolerance). At point 2 "
         "the sampling "
-        f"error of f at 95 % is {at_95[0]}, above {at_95[1]} (numerics.sampling_tolerance = "
-        f"{numerics.sampling_tolerance:g}, a "
-        "standard error). The interval of f includes these errors."
+        f"error of f at 95 % is {at_95[0]}, above {at_95[1]} (the standard error "
+        f"numerics.sampling_tolerance = {numerics.sampling_tolerance:g}, at 95 %). The interval of f includes these errors."
     )
     chosen = lubfric.plan_study(SMALL.with_(numerics={"model": "auto"}), {"bodies.load": [1.0, 2.0, 3.0]}, [0.3])
     of_model = with_columns(replace(plain, plan=chosen), model_error=[0.01, 0.3, 0.3], limit_error=[0.0, 0.299, 0.18])

@@ -76,6 +76,11 @@ ENDED_CELLS = (
     "shorter cells were not solved: judging by the changes of f so far, they would take too much work, or leave the numerical "
     "error above numerics.tolerance"
 )
+# What to do where a strip of moving roughness on the cells of its map takes more than `LONGEST_WORK`.
+ACCEPT_CELLS = (
+    "accept the numerical error by a larger numerics.tolerance: a strip on the cells of this map, which would reduce it, "
+    "takes too long"
+)
 SMALLER_PATCH = "give a smaller patch (contact.shape)"
 PATCH_IN_PLACE = "use a narrow patch in place of strips (numerics.sampling = 'patch')"
 TOO_MANY_CELLS = (
@@ -364,7 +369,7 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
-        return shorter_cells_in_motion(prepared, levels.pairs[0]).removesuffix(",")
+        return shorter_cells_in_motion(prepared, levels.pairs[0])
     if levels.end_of_cells is EndOfCells.TOO_MANY:
         return _fewer_cells(sample)
     if levels.end_of_cells.lacks_work:
@@ -376,9 +381,9 @@ def _recommendation(prepared: Prepared, levels: Levels) -> str:
     return f"give {way_to_shorter_cells(prepared)}"
 
 
-def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
-    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, and at what cost, as
-    text."""
+def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids, purpose: str = "") -> str:
+    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, at what cost, and for which
+    ``purpose``, as text; or that it is to accept the error."""
     scene = prepared.scene
     sample = prepared.sample
     sample_coarsening = sample_coarsening_of(scene, sample)
@@ -386,25 +391,23 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         sample_coarsening = SampleCoarsening((sample_coarsening[0], sample_coarsening[1] // 2))
     along = sample.cells.coarsening[0] * sample_coarsening[0]
     if along == 1:  # cells of the map, on which most of the error depends
-        return f"give {way_to_shorter_cells(prepared, along_x=True)} and numerics.grid = 'given' for shorter cells"
+        way = way_to_shorter_cells(prepared, along_x=True)
+        return f"give {way} and numerics.grid = 'given' for shorter cells{purpose}"
     (fx, fy) = (a * b for a, b in zip(sample.cells.coarsening, sample_coarsening))
     times = fx * fx * fy  # as many more steps in time as cells along x
     work = times * pair.resolved.work
     cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
     if work > LONGEST_WORK:
-        return (
-            "give a map with longer cells, and numerics.grid = 'given', which solves on the cells of the map (a strip "
-            "on the cells of this map would take too long),"
-        )
+        return ACCEPT_CELLS
     with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
-    return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost})"
+    return f"set numerics.grid = 'given'{with_model} for shorter cells ({cost}){purpose}"
 
 
 def _narrows_numerical(prepared: Prepared, levels: Levels) -> str:
     """Return what narrows the numerical error, as text: where roughness moves, or shorter cells are too many, no
     tolerance does."""
     if has_moving_roughness(prepared.scene):
-        return f"{shorter_cells_in_motion(prepared, levels.pairs[0])} to reduce it"
+        return shorter_cells_in_motion(prepared, levels.pairs[0], " to reduce it")
     if levels.end_of_cells is EndOfCells.TOO_MANY:
         return f"{_fewer_cells(prepared.sample)} to reduce it"
     if levels.end_of_cells is EndOfCells.UNSOLVED:
@@ -450,7 +453,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, levels: Levels) -> t
     if is_near_zero(f, half_widths[0]):
         return (f"{SAMPLING_ERROR} is {abs(f) * half_widths[0]:.2g} in f itself, which is below {NEAR_ZERO:g}",)
     (stated, target) = percent_beside(*half_widths)
-    note = f"{SAMPLING_ERROR} is {stated}, above {target} ({standard_error_in_words(tolerance)})"
+    note = f"{SAMPLING_ERROR} is {stated}, above {target}; {standard_error_in_words(tolerance)} sets this limit"
     needed = _area_needed(prepared, error, levels)
     return (note, why_map_too_small(tolerance, needed)) if needed > 1 else (note,)
 
@@ -512,12 +515,12 @@ def violations_by_correction(by_summits: float, of_sample: float, f: float) -> I
     if abs(by_summits) > limit:
         yield Violation(
             assumption=Assumption.SAMPLE_LIKE_SURFACE,
-            what="part of f that corrects for the summits of the sample",
+            what="correction of f for the summits of the sample",
             value=100 * abs(by_summits),
             limit=100 * limit,
             unit="%",
-            consequence=f"f is corrected by {100 * by_summits:+.2g} %, because the summits of the sample differ from "
-            "those of the infinite surface; the sampling error is for the corrected f",
+            consequence=f"f contains a correction of {100 * by_summits:+.2g} %, because the summits of the sample differ "
+            "from those of the infinite surface; the sampling error is that of the corrected f",
             recommendation="",
             is_note=True,
             effect=abs(by_summits),

@@ -128,7 +128,7 @@ def _violations_by_strong_heat(heat: Heat) -> Iterator[Violation]:
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Violation(
             assumption=Assumption.CHECKED_HEAT,
-            what="effect of heat over the largest that was checked",
+            what="ratio of the effect of heat to the largest effect for which the model was checked",
             value=max(parts),
             limit=1.0,
             unit="",

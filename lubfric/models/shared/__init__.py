@@ -17,7 +17,6 @@ from .checks import (
     LARGE_NUMERICAL_ERROR,
     NUMERICAL_ERROR,
     SAMPLING_ERROR,
-    consequence_of_numerical_error,
     is_of_impossible_stress,
     peak_hertz_pressure,
     violations_by_asperities,
@@ -92,6 +91,7 @@ from .memo import (
 from .model_error import (
     BY_HEAT,
     DETERMINISTIC,
+    IN_INTERVAL,
     MODEL_ERROR,
     REDUCED_BY_DETERMINISTIC,
     REDUCED_BY_TOLERANCE,

@@ -13,6 +13,7 @@ from ...oil import CELSIUS, NO_LIQUID
 from ...samples import way_to_longer_patch
 from ...units import worded
 from .heat import TYPICAL, Heat
+from .model_error import IN_INTERVAL
 from .violation import Assumption, Violation
 
 if TYPE_CHECKING:
@@ -63,6 +64,13 @@ STRIP_SHARE = 0.2
 # Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured:
 # a convention.
 SPIKE = 1.05
+
+# What the highest pressure of a film is called, smooth or rough.
+FILM_PRESSURE = "highest film pressure"
+
+# Part of the plastic limit from which a local peak is at this limit [-]. A choice: any number between the rounding of a
+# solve and 1 does.
+YIELDING_PART = 0.99
 
 # Pressure [Pa] above which asperities of the hardest through-hardened steel yield: 830 HV (typical.toml).
 YIELDED_ASPERITIES = 8.1e9
@@ -193,7 +201,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterat
         (facts, advice) = _spike(scene, peak, NO_LIQUID, place)
         yield Violation(
             assumption=Assumption.LIQUID_OIL,
-            what=_name_of_peak(scene, peak),
+            what=FILM_PRESSURE,
             value=peak / 1e9,
             limit=NO_LIQUID / 1e9,
             unit="GPa",
@@ -208,7 +216,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "") -> Iterat
         extrapolated = f"the viscosity law ({scene.lubricant.viscosity_law}) is extrapolated there"
         yield Violation(
             assumption=Assumption.PRESSURE_OF_VISCOSITY_LAW,
-            what=_name_of_peak(scene, peak),
+            what=FILM_PRESSURE,
             value=peak / 1e9,
             limit=limit / 1e9,
             unit="GPa",
@@ -232,7 +240,7 @@ def _violation_between_asperities(scene: Scene, peak: float, place: str) -> Viol
         advice.append("check the heights and the spacing of [surface], and bodies.hardness")
     return Violation(
         assumption=Assumption.LIQUID_OIL,
-        what=_name_of_peak(scene, peak),
+        what=FILM_PRESSURE,
         value=peak / 1e9,
         limit=NO_LIQUID / 1e9,
         unit="GPa",
@@ -258,12 +266,6 @@ def violations_by_asperities(scene: Scene, peak: float) -> Iterator[Violation]:
         )
 
 
-def _name_of_peak(scene: Scene, peak: float) -> str:
-    """Return what a ``peak`` pressure [Pa] of the film is called: a local one is above the peak Hertz pressure."""
-    is_local = peak > SPIKE * peak_hertz_pressure(scene)
-    return "highest local film pressure" if is_local else "peak film pressure"
-
-
 def _spike(scene: Scene, peak: float, limit: float, place: str) -> tuple[list[str], list[str]]:
     """Return where a ``peak`` pressure [Pa] of the film above its ``limit`` [Pa] is and what causes it, and what lowers
     it, as texts."""
@@ -273,6 +275,9 @@ def _spike(scene: Scene, peak: float, limit: float, place: str) -> tuple[list[st
     if peak > SPIKE * hertz_peak:
         where = place or "of the smooth film"
         facts.append(f"this is a local peak {where}; the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa")
+        hardness = scene.bodies.hardness
+        if hardness is not None and peak > YIELDING_PART * hardness:
+            facts.append(f"asperities yield at {hardness / 1e9:.3g} GPa, the plastic limit, which bounds the peak")
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         facts.append("a constant density causes such a spike")
         advice.append("give lubricant.density_law = 'dowson-higginson', which lowers the peak")
@@ -477,13 +482,14 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             (least, most) = sorted((heat.inlet.factor, heat.inlet.other))
             yield Violation(
                 assumption=Assumption.KNOWN_INLET_HEAT,
-                what="difference of two published inlet heating factors",
+                what="relative difference between two published factors for the heat of the inlet",
                 value=spread,
                 limit=tolerance,
                 unit="",
-                consequence=f"the film is between {least:.2g} and {most:.2g} times as thick as the isothermal one; "
-                "neither factor was derived for such sliding; the model-form error of f contains their difference",
-                recommendation="measure the film; set numerics.heat = 'off' to see f of the isothermal film",
+                consequence=f"by one or the other the film is {least:.2g} or {most:.2g} times as thick as the isothermal "
+                "one; neither was derived for such sliding; the model-form error of f contains their difference",
+                recommendation="compare with f of the isothermal film (numerics.heat = 'off'); only a measured film "
+                "shows which factor holds",
                 is_note=True,
             )
     if heat.is_slow and heat.change > tolerance:
@@ -495,7 +501,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             unit="",
             consequence="the formula of the flash temperature is for a fast heat source: here the temperature is too "
             f"high, and f is too low by at most {100 * heat.change:.2g} %, half of which its model-form error contains",
-            recommendation="set numerics.heat = 'off' to see the other bound of f",
+            recommendation="set numerics.heat = 'off' for the upper bound of f, without heat",
             is_note=heat.change <= scene.numerics.model_tolerance,
             effect=heat.change,
         )
@@ -522,17 +528,20 @@ def violations_by_typical_heat(scene: Scene, change: float, estimated: str = "")
         )
 
 
-def consequence_of_numerical_error(error: float, origin_of_limit: str = BY_TOLERANCE) -> str:
-    """Return what a numerical ``error`` of f, relative, above its limit means; ``origin_of_limit``: what sets the
-    limit."""
+def _consequence_of_numerical_error(error: float, *, has_interval: bool) -> str:
+    """Return what a numerical ``error`` of f, relative, above its limit means; ``has_interval``: whether f has an
+    interval, which includes the error."""
     if error > ERROR_OF_ORDER_OF_MAGNITUDE:
         return "the error is so large that f is only an order of magnitude"
-    return f"{origin_of_limit}; the interval of f, where it is known, includes the error"
+    return f"{BY_TOLERANCE}; {IN_INTERVAL[has_interval]}"
 
 
-def violations_by_numerical_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
+def violations_by_numerical_error(
+    error: float | None, tolerance: float, recommendation: str, *, has_interval: bool = True
+) -> Iterator[Violation]:
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known):
-    an interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning."""
+    an interval of f has it. A large one (`LARGE_NUMERICAL_ERROR`) is a warning. ``has_interval``: whether f has
+    one."""
     if error is not None and error > tolerance:
         yield Violation(
             assumption=Assumption.NUMERICAL_ERROR,
@@ -541,7 +550,7 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
             value=100 * error,
             limit=100 * tolerance,
             unit="%",
-            consequence=consequence_of_numerical_error(error),
+            consequence=_consequence_of_numerical_error(error, has_interval=has_interval),
             recommendation=recommendation,
             effect=error,
         )

@@ -408,12 +408,14 @@ def heat_error_in_words(heat: Heat, by_inlet: float, tolerance: float, *, is_at_
     within, inlet = _parts_of_error(heat, by_inlet)
     if within + inlet <= tolerance or not (within and inlet):
         return ""
-    half = "half of" if inlet <= PART_IN_ERROR * abs(by_inlet) else "the difference of two published factors in"
-    film = f"the change of f because the heat of the inlet makes the film {percent(1 - heat.film_factor)} thinner"
-    largest = " (an upper bound: f inversely proportional to the film)" if is_at_most else ""
+    of_inlet = (
+        "half of its effect" if inlet <= PART_IN_ERROR * abs(by_inlet) else "two published formulas differ as much"
+    )
+    largest = ", an upper bound: f inversely proportional to the film" if is_at_most else ""
     return (
-        f"the model-form error by heat is {percent(within + inlet)}: {percent(within)}, half of the change of f by the "
-        f"temperatures in the contact, and {percent(inlet)}, {half} {film}{largest}"
+        f"the model-form error by heat is {percent(within + inlet)}. The temperatures in the contact contribute "
+        f"{percent(within)} (half of their effect on f); the heat of the inlet, which makes the film "
+        f"{percent(1 - heat.film_factor)} thinner, contributes {percent(inlet)} ({of_inlet}{largest})"
     )
 
 

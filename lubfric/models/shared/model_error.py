@@ -15,9 +15,14 @@ REDUCED_BY_DETERMINISTIC = "set numerics.model = 'deterministic' to reduce it"
 DETERMINISTIC = "deterministic"
 REDUCED_BY_TOLERANCE = "set a smaller numerics.tolerance to reduce it"
 LARGEST_PART = "its largest part is {}"
-IN_INTERVAL = "the interval of f, where it is known, includes it"
+# Whether (True) the interval of f includes an error.
+IN_INTERVAL = {True: "the interval of f includes it", False: "f has no interval that would include it"}
 READ_INTERVAL = "use f with its interval"
-UNUSUAL_PARTS = "the parts that are not usual for this model make {} alone"
+# Why it is a note, and why a warning, where the error of the model alone is usual.
+WHY_A_NOTE_OF_MODEL = (
+    "this is a note, because that part is usual for this model, and the other parts are within the limit"
+)
+WHY_A_WARNING_BY_OTHERS = "this is a warning, because the other parts, {}, are above the limit without that part"
 WHY_A_WARNING = "this is a warning and no note, because {}"
 OTHER_PARTS = "{}; without that part the model-form error is {}"
 
@@ -94,10 +99,11 @@ def violations_by_model_error(
         recommendation = OTHER_PARTS.format(recommendation, percent(others)) if others else recommendation
     model = largest.reduced_by_model if largest is not None else ""
     seconds = seconds_by(model) if model else math.nan
-    consequence = LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL
+    consequence = LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL[has_interval]
     is_note = len(unusual) < len(parts) and not error_of_parts(unusual) > tolerance
-    if largest is not None and largest.is_usual and not is_note:
-        consequence += f"; {UNUSUAL_PARTS.format(percent(error_of_parts(unusual)))}"
+    if largest is not None and largest.is_usual:
+        by_others = WHY_A_WARNING_BY_OTHERS.format(percent(error_of_parts(unusual)))
+        consequence += f"; {WHY_A_NOTE_OF_MODEL if is_note else by_others}"
     if largest is not None and largest.why_unusual:
         consequence += f"; {WHY_A_WARNING.format(largest.why_unusual)}"
     yield Violation(

@@ -54,7 +54,7 @@ def rise_in_words(rise: float) -> str:
 
 def standard_error_in_words(tolerance: float) -> str:
     """Return what numerics.sampling_tolerance is, where errors beside it are stated at 95 %."""
-    return f"numerics.sampling_tolerance = {tolerance:g}, a standard error"
+    return f"the standard error numerics.sampling_tolerance = {tolerance:g}, at 95 %,"
 
 
 def percent_beside(value: float, target: float) -> tuple[str, str]:
