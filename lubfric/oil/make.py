@@ -133,8 +133,8 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     """Return the viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the
     coefficient is known."""
     text = (
-        f"{oil.name_and_note} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
-        f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"
+        f"{oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, constant "
+        f"0.7), density {oil.density_at(temperature):.4g} kg/m³{f'; {oil.note}' if oil.note else ''}"
     )
     alpha = oil.pressure_viscosity_coefficient(temperature)
     other = oil.other_estimate(temperature)

@@ -7,6 +7,7 @@ from .curve_tables import details_of_points
 from .describe import describe_scene, described_scene, estimate_scene
 from .fields import fields_bytes, grid_bytes, write_moments
 from .fit_report import fit_status
+from .inputs import inputs
 from .page import FRAME, framed
 from .picture_options import PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction

@@ -5,7 +5,17 @@ from collections.abc import Iterator
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
-from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, sampled_times, source_of, typical
+from ..scene import (
+    BOUNDARY_FILM,
+    BOUNDARY_FILM_KEY,
+    BOUNDARY_FRICTION_KEY,
+    FRICTION_OVER,
+    HISTORIES,
+    Scene,
+    sampled_times,
+    source_of,
+    typical,
+)
 from ..time import first_largest, scene_at
 from ..units import range_in_words, worded
 
@@ -16,7 +26,10 @@ REPLACED = {"motion.slide_roll_ratio": "sliding"}
 LIMIT_OFFSET = "lubricant.limiting_stress_offset"
 
 # Key of the autocorrelation at the correlation length of a generated map: a measured one has none.
-DECAY_LEVEL = "surface.decay_level"
+DECAY_LEVEL = "decay_level"
+
+# What follows the value of an input that the scene does not give, and that is known to a range only.
+BY_DEFAULT = ", range half to twice, the default of lubfric"
 
 INPUT_SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
@@ -26,6 +39,9 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
     every input in a section of the scene."""
     for key, quantity in KEYS.items():
         value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
+        if key == BOUNDARY_FILM_KEY and value is None and section == "bodies":
+            yield quantity.label, worded_value(key, BOUNDARY_FILM), key, BY_DEFAULT
+            continue
         if not key.startswith(f"{section}.") or value is None or value == ():
             continue
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
@@ -38,7 +54,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         )
         if key == LIMIT_OFFSET and scene.lubricant.limit is None:
             continue
-        if key == DECAY_LEVEL and scene.surface.file is not None:
+        if key == f"{section}.{DECAY_LEVEL}" and getattr(scene, section).file is not None:
             continue
         if key in REPLACED and getattr(scene.transient, REPLACED[key], None) is not None:
             continue

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..models.shared import sentence
 from ..quantities import KEYS
-from ..scene import OIL_KEYS, SOURCES, Scene, fields_of_key, short_keys, toml_value
+from ..scene import BOUNDARY_FILM_KEY, OIL_KEYS, SOURCES, Scene, fields_of_key, short_keys, toml_value
 from ..units import range_in_words, worded
 from .inputs import FACTS, inputs
 from .markup import bullets, row_with_key, table
@@ -27,6 +27,8 @@ VISCOSITY_INDEX = "viscosity_index"
 NAMED_MATERIAL = "material"
 # Key of the sliding speed over a run, which a scene has in its [transient].
 SLIDING_SPEED_KEY = "motion.sliding_speed"
+# Keys whose default follows from no other input, also beside an oil with a name.
+NEVER_DERIVED = frozenset({"lubricant.limiting_stress_offset", BOUNDARY_FILM_KEY})
 # Characters of a value in the column of how an input was given. A choice: it holds the table of a duty cycle.
 MOST_GIVEN = 400
 
@@ -109,7 +111,10 @@ def _is_derived(scene: Scene, section: str, name: str, given: dict[str, Any]) ->
     if not any(key in given for key in (*short_keys(section), NAMED_OIL)):
         return False
     used = getattr(scene, section)
-    is_default = getattr(used, name) == getattr(type(used), name, None)
+    value = getattr(used, name)
+    is_default = value is None or value == getattr(type(used), name, None)
+    if f"{section}.{name}" in NEVER_DERIVED and is_default:
+        return False
     return not is_default or any(key in given for key in (NAMED_MATERIAL, NAMED_OIL))
 
 

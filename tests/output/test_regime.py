@@ -8,7 +8,8 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.output import details_of_points, lines_of_point, regime_in_words, regimes_in_words
+from lubfric.oil import estimate_in_words, named_oil
+from lubfric.output import details_of_points, inputs, lines_of_point, regime_in_words, regimes_in_words
 
 SMALL = paper_scene(contact={"shape": (48, 48), "spacing": 1.8e-6}, numerics={"sampling": "patch", "tolerance": 0.05})
 
@@ -73,3 +74,16 @@ def test_the_forces_of_the_details_add_up_to_f_times_the_load(curve):
         cells = re.findall(r"<td[^>]*>(.*?)</td>", row)
         total = sum(float(cells[index]) for index in forces)
         assert total == pytest.approx(point.coefficient * SMALL.bodies.load, rel=0.01)
+
+
+def test_the_boundary_film_of_no_scene_key_is_an_input_by_default():
+    """It is often the largest part of the error of f, so its value of 20 nm is listed; a given one is as given."""
+    (row,) = (row for row in inputs(SMALL, "bodies") if row[2] == "bodies.boundary_film")
+    assert row[1] == "20 nm" and "the default of lubfric" in row[3]
+    given = SMALL.with_(bodies={"boundary_film": 5e-9})
+    assert [row[1] for row in inputs(given, "bodies") if row[2] == "bodies.boundary_film"] == ["5 nm"]
+
+
+def test_the_note_of_a_named_oil_stands_apart_from_its_viscosity():
+    first, *others = estimate_in_words(named_oil("fva-3"), 353.15).split("; ")
+    assert " at 80 °C: " in first and "used only" not in first and any("used only" in text for text in others)
