@@ -75,7 +75,8 @@ RUN_FILES = (
     RunFile(
         name="contact.png",
         runs=("stribeck",),
-        caption="The contact at one speed. This picture may use other cells than f and the warnings",
+        caption="The contact at one speed. This picture may use other cells than f and the warnings. Its shear stress is "
+        "isothermal, f includes heat",
         is_drawn_again=True,
     ),
     RunFile(name="contact_at_*.png", is_drawn_again=True),
