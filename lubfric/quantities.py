@@ -430,7 +430,9 @@ def worded_value(name: str, value: Any) -> str:
     numbers = _listed_numbers(value)
     if numbers and unit != "-":
         largest = unit_of_largest(numbers, unit)
-        between = " x " if name.endswith(LENGTHS_ALONG_AXES) else ", "
+        between = " and " if len(numbers) == 2 else ", "
+        if name.endswith(LENGTHS_ALONG_AXES):
+            between = " x "
         return f"{between.join(f'{converted(v, unit, largest):.4g}' for v in numbers)} {printed(largest)}".rstrip()
     if name in OF_CYCLE:
         return plain_number(value, unit, GIVEN_DIGITS)
