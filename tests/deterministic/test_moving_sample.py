@@ -1,7 +1,7 @@
 """The sample of moving roughness: its control, blocks of time and place, and when a march ends."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -21,6 +21,7 @@ from lubfric.models.deterministic import (
     cells_in_a_step,
     control_of,
     least_blocks,
+    lengths_by_slopes,
     levels,
     mean_over_blocks,
     moved_downstream,
@@ -119,7 +120,7 @@ def test_a_correction_of_f_above_its_sampling_error_or_five_percent_is_a_note(co
     assert len(notes) == (limit is not None)
     for note in notes:
         assert note.is_note and f"is {100 * abs(correction):g} %, above {limit} %" in note.text
-        assert f"corrected by {100 * correction:+g} %" in note.text
+        assert f"contains a correction of {100 * correction:+g} %" in note.text
 
 
 def test_a_short_sample_does_not_know_its_error():
@@ -367,3 +368,26 @@ def test_where_nearly_all_of_the_load_rubs_the_cells_of_the_film_matter_little()
     assert CellsInMotion(**of, film_share=0.0, sliding_share=0.7).error == pytest.approx(0.3 * complete)
     changing = of | {"film_ratio": 1.5}
     assert CellsInMotion(**changing, film_share=0.0).error > 0.0  # what the boundary film itself changes stays
+
+
+def test_the_slopes_of_two_unlike_surfaces_set_the_length_by_which_cells_are_judged():
+    """A Gaussian autocorrelation keeps its own lengths. In a sum each surface counts by its part of the mean square:
+    rho = (0.8 exp(-d²/l1²) + 0.2 exp(-d²/l2²)), and a length that is already shorter is kept."""
+    cell = 2e-6
+    fine, broad = (
+        generate_surface((512, 512), cell, sq=sq, correlation_length=length, acf="gaussian", seed=seed)
+        for sq, length, seed in ((1e-7, 1e-5, 1), (2e-7, (4e-5, 2e-5), 2))
+    )
+    assert lengths_by_slopes(broad, (4e-5, 2e-5)) == pytest.approx((4e-5, 2e-5), rel=0.03)
+    assert lengths_by_slopes(broad, (1e-5, 1e-5)) == (1e-5, 1e-5)
+    both = replace(broad, heights=broad.heights + fine.heights)
+    rho = [0.8 * math.exp(-((cell / length) ** 2)) + 0.2 * math.exp(-((cell / 1e-5) ** 2)) for length in (4e-5, 2e-5)]
+    expected = [cell / math.sqrt(-math.log(each)) for each in rho]
+    assert lengths_by_slopes(both, (4e-5, 2e-5)) == pytest.approx(expected, rel=0.03)
+
+
+def test_the_error_by_the_cells_grows_with_the_unlikeness_of_the_bodies():
+    of = {"film_ratio": 1.5, "coarse_x": 0.2, "coarse_y": 0.4, "coarse_b": 0.0, "follows_lubricant": True}
+    alike, unlike = (CellsInMotion(**of, is_smooth=True, unlike=ratio) for ratio in (1.0, 2.0))
+    assert alike.change == unlike.change
+    assert unlike.error**2 - alike.error**2 == pytest.approx(3 * (0.7 * alike.of_narrow_gaps) ** 2)

@@ -1,7 +1,14 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .answer import answer_of, violations_by_correction
-from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, changed_as_expected, film_exponent_of
+from .cells_in_motion import (
+    CellsInMotion,
+    cells_in_motion,
+    cells_of_strips,
+    changed_as_expected,
+    film_exponent_of,
+    lengths_by_slopes,
+)
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import expected_way, moving_point_work, work_of_fine_fields, work_on_long_cells
 from .expected_friction import expected_friction
