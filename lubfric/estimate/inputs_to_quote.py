@@ -63,6 +63,11 @@ DENSITY_LAWS_TO_QUOTE = {
     "dowson-higginson": "density over pressure of Dowson and Higginson",
 }
 
+# What the boundary film means in the deterministic and the quick model (docs/deterministic.md).
+BELOW_BOUNDARY_FILM = (
+    "where the gap is smaller, the shear stress is the boundary friction coefficient times the pressure"
+)
+
 
 def inputs_to_quote(
     scene: Scene,
@@ -150,10 +155,12 @@ def lubricated_contact_to_quote(scene: Scene, *, takes_boundary_film: bool = Tru
         f"{_range(scene, 'bodies.boundary_friction_coefficient')}{_table(bodies.boundary_friction_table)}"
     )
     if bodies.boundary_film is None and takes_boundary_film:
-        yield f"boundary film {worded(BOUNDARY_FILM, 'm')} (the default of lubfric)"
+        yield f"boundary film {worded(BOUNDARY_FILM, 'm')} (the default of lubfric): {BELOW_BOUNDARY_FILM}"
     elif bodies.boundary_film is not None:
         film = f"boundary film {worded(bodies.boundary_film, 'm')}{_range(scene, 'bodies.boundary_film')}"
-        yield film if takes_boundary_film else f"{film}, which limits the interval of f alone"
+        yield (
+            f"{film}: {BELOW_BOUNDARY_FILM}" if takes_boundary_film else f"{film}, which limits the interval of f alone"
+        )
     if histories is not None:
         turns = (
             ""
@@ -384,6 +391,7 @@ def _lubricant(scene: Scene) -> Iterator[str]:
         yield (
             f"limiting stress {worded(lubricant.limiting_stress_offset, 'Pa')} + "
             f"{lubricant.limiting_stress_coefficient:.4g} times the pressure"
+            f"{_range(scene, 'lubricant.limiting_stress_coefficient')}"
         )
     if lubricant.shear_modulus is not None:
         yield f"elastic shear modulus of the film {worded(lubricant.shear_modulus, 'Pa')}"
