@@ -194,6 +194,12 @@ class Sample(ABC):
         """Return strip ``index`` alone, its last rows passing into its first."""
         return self.joined([index])
 
+    @property
+    def lengths_by_slopes(self) -> tuple[float, float]:
+        """Correlation lengths [m] along x and y by which cells are judged: of a Gaussian surface that has the slopes of
+        this one. They are ``correlation_lengths``, but for two bodies with unlike ones."""
+        return self.correlation_lengths
+
     def stated_map(self) -> Surface:
         """Return the map whose statistics are stated, as Sq: the `first_strips`, joined on `cells`; of a single patch
         all of it, on native cells. A prepared scene has it as its surface."""

@@ -141,6 +141,16 @@ class GeneratedStrips(FieldsOnly, Sample):
         return math.hypot(*(rough.sq or 0.0 for rough, _ in self.roughness))
 
     @property
+    def lengths_by_slopes(self) -> tuple[float, float]:
+        """The mean square of the slopes of a Gaussian surface is 2 Sq²/l². That of two is the sum of both."""
+        if any(rough.acf != "gaussian" or not rough.sq for rough, _ in self.roughness):
+            return self.correlation_lengths
+        lengths = np.array([correlation_lengths(rough) for rough, _ in self.roughness])
+        squares = np.array([rough.sq or 0.0 for rough, _ in self.roughness]) ** 2
+        (along, across) = np.sqrt(squares.sum() / (squares / lengths.T**2).sum(axis=1))
+        return float(along), float(across)
+
+    @property
     def _shape_of_strip(self) -> tuple[int, int]:
         """Cells of a strip along x and y, with those that blend into the next strip."""
         return self.cells.columns, self.rows + blend_of(self.correlation_lengths[1], self.cells.spacing[1])

@@ -1,7 +1,7 @@
 """The sample of moving roughness: its control, blocks of time and place, and when a march ends."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -21,7 +21,6 @@ from lubfric.models.deterministic import (
     cells_in_a_step,
     control_of,
     least_blocks,
-    lengths_by_slopes,
     levels,
     mean_over_blocks,
     moved_downstream,
@@ -371,19 +370,20 @@ def test_where_nearly_all_of_the_load_rubs_the_cells_of_the_film_matter_little()
 
 
 def test_the_slopes_of_two_unlike_surfaces_set_the_length_by_which_cells_are_judged():
-    """A Gaussian autocorrelation keeps its own lengths. In a sum each surface counts by its part of the mean square:
-    rho = (0.8 exp(-d²/l1²) + 0.2 exp(-d²/l2²)), and a length that is already shorter is kept."""
-    cell = 2e-6
-    fine, broad = (
-        generate_surface((512, 512), cell, sq=sq, correlation_length=length, acf="gaussian", seed=seed)
-        for sq, length, seed in ((1e-7, 1e-5, 1), (2e-7, (4e-5, 2e-5), 2))
-    )
-    assert lengths_by_slopes(broad, (4e-5, 2e-5)) == pytest.approx((4e-5, 2e-5), rel=0.03)
-    assert lengths_by_slopes(broad, (1e-5, 1e-5)) == (1e-5, 1e-5)
-    both = replace(broad, heights=broad.heights + fine.heights)
-    rho = [0.8 * math.exp(-((cell / length) ** 2)) + 0.2 * math.exp(-((cell / 1e-5) ** 2)) for length in (4e-5, 2e-5)]
-    expected = [cell / math.sqrt(-math.log(each)) for each in rho]
-    assert lengths_by_slopes(both, (4e-5, 2e-5)) == pytest.approx(expected, rel=0.03)
+    """Sq and slopes of the generated map itself say the same; one body, or an exponential one, keeps its lengths."""
+    rough = {"sq": 1e-7, "correlation_length": 1e-5, "acf": "gaussian"}
+    broad = {"sq": 2e-7, "correlation_length": (4e-5, 2e-5), "acf": "gaussian"}
+    scene = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": (256, 256), "spacing": 1e-6})
+    both = lubfric.prepare(scene.with_(counterface=broad))
+    heights = both.surface.heights
+    for axis, length in enumerate(both.sample.lengths_by_slopes):
+        step = both.surface.spacing[axis]
+        fall = np.mean(np.diff(heights, axis=axis) ** 2) / (2 * np.var(heights))
+        assert length == pytest.approx(step / math.sqrt(-math.log(1 - fall)), rel=0.1)
+        assert length < 0.8 * both.sample.correlation_lengths[axis]
+    for one in (scene, scene.with_(counterface=broad | {"acf": "exponential"})):
+        sample = lubfric.prepare(one).sample
+        assert sample.lengths_by_slopes == pytest.approx(sample.correlation_lengths)
 
 
 def test_the_error_by_the_cells_grows_with_the_unlikeness_of_the_bodies():

@@ -7,7 +7,6 @@ from .cells_in_motion import (
     cells_of_strips,
     changed_as_expected,
     film_exponent_of,
-    lengths_by_slopes,
 )
 from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import expected_way, moving_point_work, work_of_fine_fields, work_on_long_cells

@@ -7,10 +7,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from ...quantities import names_with
-from ...surface import Surface
+from ...samples import Sample
 from ..shared import Prepared, is_smooth_over_cells, with_rest_rolling
 from .moving import film_half_width
 from .result import DeterministicResult
@@ -91,7 +89,7 @@ class CellsInMotion:
     by_longer : relative change of f from cells twice as long along y
     follows_lubricant : whether steps were of third order along the lubricant
     is_smooth : whether the heights are smooth over the cells
-    unlike : largest ratio of a correlation length to that by which the cells are judged (`lengths_by_slopes`)
+    unlike : largest ratio of a correlation length to that by which the cells are judged (`unlikeness`)
     sliding_share : sliding part of f over f; the rest is the gradient of the pressure, which the film does not change
     film_share : part of the load on film that does not rub with f_b; 1: not known
     """
@@ -204,12 +202,10 @@ def cells_in_motion(
     """Return what is known of cells of the lengths ``cell`` [m] along x and y, where the roughness of ``strips`` moves;
     ``is_smooth``, ``by_longer``: fields."""
     results = [strip.result for strip in strips]
-    of_sample = prepared.sample.correlation_lengths
-    lengths = lengths_by_slopes(prepared.surface, of_sample) if is_smooth else of_sample
     return CellsInMotion.on_cells(
         cell,
-        lengths=lengths,
-        unlike=unlikeness(of_sample, lengths),
+        lengths=prepared.sample.lengths_by_slopes,
+        unlike=unlikeness(prepared.sample),
         half_width=film_half_width(strips[0].problem.line),
         film_ratio=film_ratio_of(results),
         follows_lubricant=all(strip.follows_lubricant for strip in strips),
@@ -220,27 +216,15 @@ def cells_in_motion(
     )
 
 
-def lengths_by_slopes(surface: Surface, lengths: tuple[float, float]) -> tuple[float, float]:
-    """Return the correlation lengths [m] along x and y of a Gaussian autocorrelation that falls from cell to cell as
-    much as that of ``surface``, at most its own ``lengths`` [m].
+def unlikeness(sample: Sample) -> float:
+    """Return the largest ratio of the correlation lengths of ``sample`` along x and y to those by which cells are
+    judged [-].
 
-    Narrow gaps are as sharp as the slopes are steep. Where two bodies have unlike correlation lengths, the sample has
-    the longer ones, and the shorter ones make the slopes. With the longer ones f of three narrow strips was too high by
-    4.4, 3.5 and 9.8 % where 0.6, 0.6 and 1.5 % were expected; with these 1.8, 1.4 and 5.4 % are.
+    Narrow gaps are as sharp as the slopes are steep. Where two bodies have unlike lengths, the sample has the longer
+    ones, and the shorter ones make the slopes. By the longer ones 0.6, 0.6 and 1.5 % were expected on three narrow strips
+    whose f was too high by 4.4, 3.5 and 9.8 %; by the slopes 1.8, 1.4 and 5.4 %.
     """
-    heights = surface.heights - surface.heights.mean()
-    variance = float(np.mean(heights**2))
-    shorter = []
-    for axis, (spacing, length) in enumerate(zip(surface.spacing, lengths)):
-        fall = float(np.mean(np.diff(heights, axis=axis) ** 2)) / (2.0 * variance) if variance > 0 else 0.0
-        by_slopes = spacing / math.sqrt(-math.log1p(-fall)) if 0.0 < fall < 1.0 else length
-        shorter.append(min(by_slopes, length))
-    return shorter[0], shorter[1]
-
-
-def unlikeness(lengths: tuple[float, float], by_slopes: tuple[float, float]) -> float:
-    """Return the largest ratio of ``lengths`` to those ``by_slopes``, along x and y [-]."""
-    return max(length / shorter for length, shorter in zip(lengths, by_slopes))
+    return max(length / by_slopes for length, by_slopes in zip(sample.correlation_lengths, sample.lengths_by_slopes))
 
 
 def cells_of_strips(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:

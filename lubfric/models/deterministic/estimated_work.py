@@ -21,7 +21,7 @@ from ...surface import Surface
 from ..contract import AUTO
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, student
 from ..work_estimate import MeasuredTime, WorkEstimate
-from .cells_in_motion import CellsInMotion, lengths_by_slopes, unlikeness
+from .cells_in_motion import CellsInMotion, unlikeness
 from .counted_work import MOST_WORK_OF_POINT
 from .expected_friction import expected_friction, solved_ends_of_hardness, solved_ends_of_shear
 from .expected_steps import expected_steps
@@ -494,17 +494,14 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if across % 2 or not least <= scene.line_contact(abs(speed)).moes_film / surface.sq <= most:
         return False
     (dx, dy) = sample.cells.spacing
-    is_smooth = is_smooth_over_cells(surface.heights)
-    of_sample = sample.correlation_lengths
-    lengths = lengths_by_slopes(surface, of_sample) if is_smooth else of_sample
     cells = CellsInMotion.on_cells(
         (along * dx, across * dy),
-        lengths=lengths,
-        unlike=unlikeness(of_sample, lengths),
+        lengths=sample.lengths_by_slopes,
+        unlike=unlikeness(sample),
         half_width=film_half_width(scene.line_contact(abs(speed))),
         film_ratio=4.0**EXPECTED_STEEPNESS,
         follows_lubricant=True,
-        is_smooth=is_smooth,
+        is_smooth=is_smooth_over_cells(surface.heights),
     )
     return cells.shorter_ones_pay(scene.numerics.model_tolerance)
 

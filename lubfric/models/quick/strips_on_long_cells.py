@@ -232,7 +232,7 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
     if not has_moving_roughness(scene):
         return 0.0
     (along, across) = CELLS_OF_REFERENCES
-    (lx, ly) = prepared.sample.correlation_lengths
+    (lx, ly) = prepared.sample.lengths_by_slopes
     cell = min(lx, scene.bodies.half_width) / along, ly / across
     is_smooth = is_smooth_over_cells(prepared.surface.heights)
     return cells_in_motion(prepared, [pair.resolved for pair in pairs], cell, is_smooth=is_smooth).error
@@ -240,7 +240,7 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
 
 def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     """Return the `features` of a ``pair``."""
-    length = prepared.sample.correlation_lengths[0]
+    (length, _) = prepared.sample.lengths_by_slopes
     numbers = numbers_for_features(pair, length, is_smooth=is_smooth_over_cells(prepared.surface.heights))
     return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
 
@@ -259,7 +259,8 @@ def _solve_pair(
     scene = prepared.scene
     sample = prepared.sample
     surface = map_of_strip(prepared, index)
-    lengths = sample.correlation_lengths
+    # of two bodies with unlike lengths: by the longer ones f of a needle roller on a ground shaft was .04, not .096
+    lengths = sample.lengths_by_slopes
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
         map_coarsening = map_coarsening_at_rest(scene, spacing=surface.spacing, rows=surface.shape[1], lengths=lengths)
