@@ -25,7 +25,7 @@ FORCES = {
     "contact_load": "asperity load F_C [N]",
     "film_load": "film load F_H [N]",
     "boundary_force": "boundary force [N]",
-    "couette_force": "viscous shear (Couette) of the film [N]",
+    "couette_force": "viscous shear of the film [N]",
     "rolling_force": "rolling part of the film [N]",
 }
 # What these forces are together, and where the rolling part is from.

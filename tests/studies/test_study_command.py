@@ -67,7 +67,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
         and "[8/8]" in said
         and "wrote references.bib, report.html, resolved.toml, resolved_study.toml" in said
     )
-    assert re.search(r"in [\d.]+ s \([\d.]+ s of processor time", " ".join(said.split()))
+    assert re.search(r"in [\d.]+ s of wall-clock time \([\d.]+ s of processor time", " ".join(said.split()))
     result = lubfric.open_study(tmp_path / "out")
     scene = lubfric.load_scene(tmp_path / "small.toml")
     pairs = [(1, 1e-7), (2, 1.2e-7)]
