@@ -174,7 +174,7 @@ def _place_of_bar(options: PictureOptions) -> Literal["right", "top"]:
 def _title(figure: Figure, text: str, options: PictureOptions) -> None:
     if not options.has_title:
         return
-    figure.suptitle(text, fontsize=None if options.is_narrow else 10, wrap=options.width is not None)
+    figure.suptitle(text, fontsize=None if options.is_narrow else 10, wrap=True)
 
 
 def size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:

@@ -56,7 +56,7 @@ def regime_in_words(asperity_load_ratio: float, lambda_ratio: float) -> list[str
     if regime is None:
         return []
     usual = regime_of_lambda(lambda_ratio)
-    by_lambda = f", and a lambda ratio of {lambda_ratio:.3g}" if usual is not None else ""
+    by_lambda = f", the lambda ratio {lambda_ratio:.3g}" if usual is not None else ""
     if usual not in (None, regime):
         by_lambda = f"; its lambda ratio of {lambda_ratio:.3g} alone would be taken for {usual}"
     text = f"This is {regime}: the asperity load ratio is {asperity_load_ratio:.2g}{by_lambda}."

@@ -403,6 +403,7 @@ def test_panels_and_the_title_of_a_contact_are_chosen(figures):
     labels = [[bar.get_ylabel() for bar in figure.axes if not bar.images] for figure in figures]
     assert labels == [["pressure (GPa)", "gap (µm)"], ["pressure (GPa)", "gap (µm)", "isothermal shear stress (MPa)"]]
     assert figures[0].get_suptitle() == "" and "heat, the shear stress does not" in figures[1].get_suptitle()
+    assert figures[1]._suptitle.get_wrap()  # it is longer than the picture is wide
 
 
 def test_the_key_of_a_narrow_figure_has_few_rows():

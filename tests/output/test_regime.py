@@ -22,15 +22,15 @@ def curve():
 @pytest.mark.parametrize(
     "asperity_load_ratio, lambda_ratio, begin, is_of_wear",
     [
-        (0.99, 0.08, "This is boundary lubrication: the asperity load ratio is 0.99, and a lambda ratio", True),
-        (0.27, 2.0, "This is mixed lubrication: the asperity load ratio is 0.27, and a lambda ratio of 2.", True),
+        (0.99, 0.08, "This is boundary lubrication: the asperity load ratio is 0.99, the lambda ratio", True),
+        (0.27, 2.0, "This is mixed lubrication: the asperity load ratio is 0.27, the lambda ratio 2.", True),
         (
             0.27,
             0.25,
             "This is mixed lubrication: the asperity load ratio is 0.27; its lambda ratio of 0.25 alone",
             True,
         ),
-        (0.0, 4.0, "This is full-film lubrication: the asperity load ratio is 0, and a lambda ratio of 4.", False),
+        (0.0, 4.0, "This is full-film lubrication: the asperity load ratio is 0, the lambda ratio 4.", False),
         (1.0, math.nan, "This is boundary lubrication: the asperity load ratio is 1.", True),
     ],
 )
