@@ -242,15 +242,15 @@ class QuickSolution(SampleSolution):
         return replace(answer, decision=decision, errors=errors)
 
 
-def expected_coarsening(scene: Scene, sample: Sample, surface: Surface, speed: float) -> tuple[float, float]:
-    """Return the length of the long cells in those of ``sample`` that is expected for roughness of the ``surface``
+def expected_coarsening(scene: Scene, sample: Sample, sq: float, speed: float) -> tuple[float, float]:
+    """Return the length of the long cells in those of ``sample`` that is expected for roughness of ``sq`` [m]
     at ``speed`` [m/s]: where it moves, those of a thin film if asperities are expected to carry a part of the load
     (`THIN_BY_SHARE`)."""
     (dx, dy) = sample.cells.spacing
     lengths = sample.lengths_by_slopes
     if has_moving_roughness(scene):
         (least, most) = THIN_BY_SHARE
-        is_thin = least <= expected_friction(scene, surface.sq, speed).share <= most
+        is_thin = least <= expected_friction(scene, sq, speed).share <= most
         return map_coarsening_in_motion(
             scene,
             spacing=(dx, dy),
@@ -375,7 +375,7 @@ class QuickModel(Model):
                 sample,
                 surface,
                 speed,
-                sample_coarsening=expected_coarsening(scene, sample, surface, speed),
+                sample_coarsening=expected_coarsening(scene, sample, surface.sq, speed),
                 count=count,
             )
         is_passed_over = scene.numerics.model_tolerance < LEAST_TOLERANCE
@@ -389,7 +389,7 @@ class QuickModel(Model):
         )
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
-        (along, across) = expected_coarsening(scene, sample, surface, speed)
+        (along, across) = expected_coarsening(scene, sample, surface.sq, speed)
         (fx, fy) = sample.cells.coarsening
         solved = round(along * fx), round(across * fy)
         fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed, solved) if seconds else 0.0
